@@ -1,0 +1,125 @@
+# Contact-free suspensions of rigid bodies in two-dimensional Stokes flow. `make` prints what there is to make.
+
+CXX      ?= g++
+CXXFLAGS ?= -O3
+BUILD    ?= build
+RESULTS  ?= results
+
+IS_CLANG := $(shell $(CXX) --version 2>/dev/null | grep -ci clang)
+OPENMP   := $(shell printf '\043include <omp.h>\nint main(){return omp_get_max_threads()<1;}' | \
+              $(CXX) -fopenmp -x c++ -o /dev/null - 2>/dev/null && echo -fopenmp)
+# g++ 12 warns of uninitialised registers inside its own AVX-512 intrinsics (GCC bug 105593).
+WARNINGS  = -Wall -Wextra -Wshadow $(if $(filter 0,$(IS_CLANG)),-Wno-uninitialized -Wno-maybe-uninitialized)
+ARCH      = $(if $(PORTABLE),,-march=native)
+FLAGS     = -std=c++20 $(WARNINGS) $(CXXFLAGS) $(ARCH) $(OPENMP) $(SANITIZERS) -Isrc -Iexperiments -MMD -MP
+LIBS      = -lfftw3 $(LDLIBS)
+
+names        = $(basename $(notdir $(wildcard $(1))))
+PROGRAMS    := simulate
+EXPERIMENTS := $(call names,experiments/*.cpp)
+LIBRARY     := $(filter-out $(PROGRAMS),$(call names,src/*.cpp))
+TESTS       := $(call names,tests/*.cpp)
+BINARIES    := $(addprefix $(BUILD)/,$(PROGRAMS) $(EXPERIMENTS))
+OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $(TESTS))
+
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.PHONY: help deps all test reproduce reproduce-quick verify bench sanitize clean FORCE
+.SECONDARY:
+
+help:
+	@echo 'make deps             install Eigen, FFTW and doctest where they are missing'
+	@echo 'make test             build and run the tests'
+	@echo 'make reproduce        run every experiment and compare with the published values'
+	@echo 'make reproduce-quick  the coarse cases of every experiment only'
+	@echo 'make verify           compare the results that are there, without running anything'
+	@echo 'make all              build everything'
+	@echo 'make bench            time the kernels and the solver'
+	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
+	@echo 'make clean            remove $(BUILD) and $(RESULTS)'
+	@echo
+	@echo 'CXX=clang++  another compiler        PORTABLE=1   no -march=native'
+	@echo 'BUILD=dir    another build folder    RESULTS=dir  another results folder'
+	@echo '-j2          independent work side by side'
+
+all: $(BINARIES)
+
+# --- dependencies ---------------------------------------------------------------------------------------
+HEADERS  = eigen3/Eigen/Core fftw3.h doctest/doctest.h
+missing  = for h in $(HEADERS); do echo "\#include <$$h>" | $(CXX) -std=c++20 -x c++ -fsyntax-only - 2>/dev/null || echo $$h; done
+deps:
+	@if ! command -v $(CXX) >/dev/null || [ -n "$$($(missing))" ]; then \
+	  if command -v apt-get >/dev/null; then \
+	    root=; [ "$$(id -u)" = 0 ] || root=sudo; \
+	    $$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive \
+	      apt-get install -q -y --no-install-recommends g++ libeigen3-dev libfftw3-dev doctest-dev; \
+	  else \
+	    echo 'Please install a C++20 compiler, Eigen 3, FFTW 3 and doctest; missing here:' $$($(missing)) >&2; exit 1; \
+	  fi; \
+	fi
+
+# --- compilation ----------------------------------------------------------------------------------------
+# The stamp holds the compiler and its flags: everything is rebuilt when they change.
+$(BUILD)/flags: FORCE | $(filter deps,$(MAKECMDGOALS))
+	@mkdir -p $(BUILD)
+	@echo '$(CXX) $(FLAGS) $(LIBS)' | cmp -s - $@ || echo '$(CXX) $(FLAGS) $(LIBS)' > $@
+
+$(OBJECTS): $(BUILD)/flags
+$(BUILD)/%.o: src/%.cpp
+	$(CXX) $(FLAGS) -c $< -o $@
+$(BUILD)/%.o: experiments/%.cpp
+	$(CXX) $(FLAGS) -c $< -o $@
+$(BUILD)/%.o: tests/%.cpp
+	$(CXX) $(FLAGS) -c $< -o $@
+
+$(BUILD)/libstokes.a: $(LIBRARY:%=$(BUILD)/%.o)
+	@rm -f $@
+	ar rcs $@ $^
+$(BUILD)/tests: $(TESTS:%=$(BUILD)/%.o) $(BUILD)/libstokes.a
+	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
+$(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
+	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
+
+-include $(wildcard $(BUILD)/*.d)
+
+# --- tests ----------------------------------------------------------------------------------------------
+test: $(BUILD)/tests $(BUILD)/simulate
+	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests
+
+sanitize:
+	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \
+	  SANITIZERS='-fsanitize=address,undefined -fno-sanitize-recover=all' test
+
+# --- experiments: one process and one file a case -------------------------------------------------------
+TABLE1_SEPARATIONS = 0 1 2 2.25 2.5 2.75 3
+TABLE1_STEPS       = 0.04 0.02 0.01 0.005 0.0025
+TABLE1_CASES       = $(foreach t,$(TABLE1_STEPS),$(foreach d,$(TABLE1_SEPARATIONS),delta$(d)h_dt$(t)))
+FIG2_CASES         = $(foreach d,0 1 2 2.1 2.5 2.75 3,delta$(d)h)
+FIG3_CASES         = y0.75 y0.755 y0.76
+
+# $(call experiment,name,cases,quick cases): `name` makes all its cases and then its tables.
+define experiment
+.PHONY: $(1) $(1)-quick
+$(RESULTS)/$(1)/%.csv: $(BUILD)/$(1)
+	@echo $(1) $$*
+	@$(BUILD)/$(1) case=$$* results=$(RESULTS)
+$(1): $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(2))
+	@$(BUILD)/$(1) collect results=$(RESULTS)
+$(1)-quick: $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(3))
+	@$(BUILD)/$(1) collect results=$(RESULTS)
+reproduce: $(1)
+reproduce-quick: $(1)-quick
+endef
+$(eval $(call experiment,table1_reversibility,$(TABLE1_CASES),$(filter %_dt0.04 %_dt0.02 %_dt0.01,$(TABLE1_CASES))))
+$(eval $(call experiment,fig2_shear_separation,$(FIG2_CASES),$(FIG2_CASES)))
+$(eval $(call experiment,fig3_pathlines,$(FIG3_CASES),$(FIG3_CASES)))
+
+reproduce: $(BUILD)/verify
+	@$(BUILD)/verify results=$(RESULTS)
+reproduce-quick: $(BUILD)/verify
+	@$(BUILD)/verify results=$(RESULTS) missing=allow
+verify: $(BUILD)/verify
+	@$(BUILD)/verify results=$(RESULTS)
+
+clean:
+	rm -rf $(BUILD) $(RESULTS)

@@ -1,0 +1,111 @@
+// What the experiment programs share: their command line and their result files.
+//
+//   program case=NAME [results=DIR]   computes one case, writes DIR/<experiment>/<case>.csv
+//   program collect   [results=DIR]   combines the cases that are there into tables and summary.csv
+//   program list                      prints the names of the cases
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base.hpp"
+#include "csv.hpp"
+#include "threads.hpp"
+#include "version.hpp"
+
+namespace stokes {
+
+// One row of named numbers: the result of a case, read by `verify` by these names.
+using Quantities = std::vector<std::pair<std::string, double>>;
+
+class Results {
+ public:
+  Results(const std::filesystem::path& root, const std::string& experiment) : folder_(root / experiment) {
+    std::filesystem::create_directories(folder_);
+  }
+
+  std::filesystem::path path(const std::string& name) const { return folder_ / (name + ".csv"); }
+  bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
+
+  // Writes <name>.csv as a whole: version, compiler and `parameters` as comment lines, then the rows.
+  void write(const std::string& name, const std::vector<std::string>& header,
+             const std::vector<std::vector<double>>& rows, const Comments& parameters = {}) const {
+    std::string text;
+    for (const Comments& comments : {provenance(), parameters})
+      for (const auto& [key, value] : comments) text += concat("# ", key, ": ", value, "\n");
+    text += join(header, ",") + "\n";
+    for (const std::vector<double>& row : rows) {
+      std::vector<std::string> fields;
+      for (double value : row) fields.push_back(format_number(value));
+      text += join(fields, ",") + "\n";
+    }
+    write_file_atomically(path(name), text);
+  }
+  void write(const std::string& name, const Quantities& quantities, const Comments& parameters = {}) const {
+    std::vector<std::string> header;
+    std::vector<double> row;
+    for (const auto& [key, value] : quantities) header.push_back(key), row.push_back(value);
+    write(name, header, {row}, parameters);
+  }
+
+  // A number that a case has written in its only row.
+  double quantity(const std::string& name, const std::string& column) const {
+    const Table table = read_csv(path(name));
+    return table.number(0, table.column(column));
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+struct Experiment {
+  std::string name;
+  std::vector<std::string> cases;
+  std::function<void(const std::string& case_name, const Results&)> run;
+  std::function<void(const Results&)> collect;
+};
+
+// main() of an experiment: exit status 0, 2 for wrong arguments, 3 for a numerical failure. A case runs on
+// one thread, so that cases can run side by side.
+inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
+  const std::string usage = concat("usage: ", experiment.name, " case=NAME|collect|list [results=DIR]");
+  try {
+    std::string task, root = "results";
+    for (int i = 1; i < argc; ++i) {
+      const std::string argument = argv[i];
+      if (argument.starts_with("results="))
+        root = argument.substr(8);
+      else if (task.empty())
+        task = argument;
+      else
+        throw InputError(concat("unexpected argument ", quote(argument), "; ", usage));
+    }
+    if (task == "list") {
+      for (const std::string& name : experiment.cases) std::printf("%s\n", name.c_str());
+      return 0;
+    }
+    if (task == "collect") {
+      experiment.collect(Results(root, experiment.name));
+      return 0;
+    }
+    if (!task.starts_with("case=")) throw InputError(usage);
+    const std::string name = task.substr(5);
+    if (std::find(experiment.cases.begin(), experiment.cases.end(), name) == experiment.cases.end())
+      throw InputError(concat("no case ", quote(name), "; did you mean ", nearest_name(name, experiment.cases), "?"));
+    set_thread_count(1);
+    experiment.run(name, Results(root, experiment.name));
+    return 0;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), error.what());
+    return 3;
+  }
+}
+
+}  // namespace stokes

@@ -1,0 +1,396 @@
+#include "case.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <type_traits>
+
+#include "base.hpp"
+
+namespace stokes {
+
+namespace {
+
+template <class Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+Words<FlowKind> words_of(FlowKind) {
+  return {{"shear", FlowKind::shear}, {"extension", FlowKind::extension}, {"none", FlowKind::none}};
+}
+Words<ContactModel> words_of(ContactModel) {
+  return {{"gap", ContactModel::gap}, {"none", ContactModel::none}};
+}
+Words<Coupling> words_of(Coupling) { return {{"global", Coupling::global}}; }
+Words<NearSingular> words_of(NearSingular) { return {{"cauchy", NearSingular::cauchy}}; }
+Words<TimeCounting> words_of(TimeCounting) {
+  return {{"accumulated", TimeCounting::accumulated}, {"exact", TimeCounting::exact}};
+}
+Words<bool> words_of(bool) { return {{"yes", true}, {"no", false}}; }
+
+template <class Value>
+std::vector<std::string> names_of(const Words<Value>& words) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  return names;
+}
+
+// A value as the user gave it, and where: "file:line" or "argument 'key=value'".
+struct Given {
+  std::string text;
+  std::string where;
+};
+using GivenKeys = std::map<std::string, Given>;
+
+template <class... Parts>
+[[noreturn]] void fail(const std::string& where, const Parts&... parts) {
+  throw InputError(concat(where, ": ", parts...));
+}
+
+[[noreturn]] void refuse(const std::string& key, const Given& given, std::string_view why) {
+  fail(given.where, key, " = ", quote(given.text), " ", why);
+}
+
+template <class Value>
+Value parse_value(const std::string& key, const Given& given) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    return given.text;
+  } else if constexpr (std::is_same_v<Value, double>) {
+    if (const auto number = parse_number(given.text)) return *number;
+    refuse(key, given, "is not a finite number; write it like 0.25 or 1e-3.");
+  } else if constexpr (std::is_same_v<Value, int>) {
+    constexpr long long limit = std::numeric_limits<int>::max();
+    const auto number = parse_integer(given.text);
+    if (number && *number >= -limit && *number <= limit) return static_cast<int>(*number);
+    refuse(key, given, concat("is not a whole number of at most ", limit, "; write it like 32."));
+  } else {
+    const auto words = words_of(Value{});
+    for (const auto& [name, value] : words)
+      if (name == given.text) return value;
+    const auto names = names_of(words);
+    refuse(key, given,
+           concat("is unknown: it can be ", join(names, " or "), "; did you mean ",
+                  quote(nearest_name(given.text, names)), "?"));
+  }
+}
+
+template <class Value>
+std::string text_of(const Value& value) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    return value;
+  } else if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
+    return format_number(value);
+  } else {
+    for (const auto& [name, known] : words_of(value))
+      if (known == value) return name;
+    throw std::logic_error("a value of the case has no word");
+  }
+}
+
+template <class Value>
+std::string kind_of() {
+  if constexpr (std::is_same_v<Value, std::string>)
+    return "name";
+  else if constexpr (std::is_same_v<Value, double>)
+    return "number";
+  else if constexpr (std::is_same_v<Value, int>)
+    return "whole number";
+  else
+    return join(names_of(words_of(Value{})), " | ");
+}
+
+struct Key {
+  std::string name;
+  bool is_required;
+  std::string kind;
+  std::string help;
+  std::function<void(Case&, const Given&)> set;
+  std::function<std::string(const Case&)> get;
+};
+
+template <class Value>
+Key optional(std::string name, Value Case::*member, std::string help) {
+  const auto set = [=](Case& c, const Given& given) { c.*member = parse_value<Value>(name, given); };
+  const auto get = [=](const Case& c) { return text_of(c.*member); };
+  return {name, false, kind_of<Value>(), std::move(help), set, get};
+}
+
+template <class Value>
+Key required(std::string name, Value Case::*member, std::string help) {
+  Key key = optional(std::move(name), member, std::move(help));
+  key.is_required = true;
+  return key;
+}
+
+// A key that need not have a value: `unset` is the word for that.
+template <class Value>
+Key optional(std::string name, std::optional<Value> Case::*member, std::string unset, std::string help) {
+  const auto set = [=](Case& c, const Given& given) {
+    c.*member = given.text == unset ? std::nullopt : std::optional(parse_value<Value>(name, given));
+  };
+  const auto get = [=](const Case& c) { return c.*member ? text_of(*(c.*member)) : unset; };
+  return {name, false, kind_of<Value>() + " | " + unset, std::move(help), set, get};
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> table = {
+      required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file"),
+      required("flow", &Case::flow, "background flow: shear (rate y, 0), extension rate (x, -y)"),
+      required("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8"),
+      required("time_step", &Case::time_step, "length of a step, time"),
+      required("end_time", &Case::end_time, "when to stop, time"),
+      required("output", &Case::output, "folder of the results, relative to the working directory"),
+      optional("rate", &Case::rate, "of the flow, 1/time; may be negative"),
+      optional("reverse_at", &Case::reverse_at, "none", "time from which every driving is reversed"),
+      optional("min_separation", &Case::min_separation,
+               "in units of h = longest perimeter / points_per_body"),
+      optional("min_separation_length", &Case::min_separation_length, "none",
+               "length, instead of min_separation"),
+      optional("contact", &Case::contact, "model that keeps bodies apart"),
+      optional("coupling", &Case::coupling, "between the bodies in a step"),
+      optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
+      optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
+      optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
+      optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
+      optional("threads", &Case::threads, "all", "at most 1024"),
+      optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time"),
+  };
+  return table;
+}
+
+std::vector<std::string> key_names() {
+  std::vector<std::string> names;
+  for (const Key& key : keys()) names.push_back(key.name);
+  return names;
+}
+
+// Adds `key = value`; a key that `given` has already is an error.
+void add_setting(std::string_view setting, const std::string& where, GivenKeys& given) {
+  for (const char c : setting) {
+    if ((static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F) {
+      fail(where, "there is a control character in ", quote(setting),
+           "; a case is plain text, one `key = value` a line.");
+    }
+  }
+  const auto equals = setting.find('=');
+  if (equals == std::string_view::npos) fail(where, quote(setting), " has no '='; write key = value.");
+  const std::string key(trim(setting.substr(0, equals)));
+  const std::string_view value = trim(setting.substr(equals + 1));
+  const auto names = key_names();
+  if (std::find(names.begin(), names.end(), key) == names.end()) {
+    fail(where, "unknown key ", quote(key), "; did you mean ", quote(nearest_name(key, names)),
+         "? --help lists the keys.");
+  }
+  if (value.empty()) fail(where, key, " has no value; write ", key, " = value.");
+  const auto [entry, is_new] = given.try_emplace(key, Given{std::string(value), where});
+  if (!is_new) {
+    fail(where, key, " = ", quote(value), " is given twice; the first is ", quote(entry->second.text),
+         " at ", entry->second.where, "; keep one.");
+  }
+}
+
+std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find('#'))); }
+
+// Everything given, arguments in the place of what the file says; `end` is the file's last line.
+GivenKeys collect(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                  std::string& end) {
+  std::string content = read_text_file(file, "the case file");
+  if (content.ends_with('\n')) content.pop_back();
+  GivenKeys in_file, in_arguments;
+  int line_number = 0;
+  for (const std::string_view line : split(content, '\n')) {
+    end = concat(file.string(), ":", ++line_number);
+    const std::string_view setting = without_comment(line);
+    if (!setting.empty()) add_setting(setting, end, in_file);
+  }
+  for (const std::string& argument : overrides)
+    add_setting(without_comment(argument), concat("argument ", quote(argument)), in_arguments);
+  in_arguments.merge(in_file);
+  return in_arguments;
+}
+
+// Limits of the values and of their combinations.
+void check_case(const Case& c, const GivenKeys& given) {
+  const auto limit = [&given](bool holds, const char* key, std::string_view why) {
+    if (!holds) refuse(key, given.at(key), why);
+  };
+  limit(c.points_per_body >= 8, "points_per_body", "is below 8; try 32.");
+  limit(c.points_per_body % 2 == 0, "points_per_body", "is odd; it must be even, try one more.");
+  // The block of one shape would need more than 100 GB.
+  limit(c.points_per_body <= 65536, "points_per_body", "is above 65536; try 1024.");
+  limit(c.time_step > 0.0, "time_step", "must be greater than 0; a flow backwards has a negative rate.");
+  limit(c.end_time > 0.0, "end_time", "must be greater than 0; a flow backwards has a negative rate.");
+  // Steps are counted by an int.
+  limit(c.end_time / c.time_step < 2e9, "time_step",
+        concat("makes more than 2e9 steps to end_time = ", c.end_time, "; take a larger step."));
+  if (c.reverse_at) limit(*c.reverse_at >= 0.0, "reverse_at", "must be at least 0, or none.");
+  limit(c.min_separation >= 0.0, "min_separation", "must be at least 0.");
+  if (c.min_separation_length) {
+    limit(*c.min_separation_length >= 0.0, "min_separation_length", "must be at least 0.");
+    if (const auto other = given.find("min_separation"); other != given.end())
+      limit(false, "min_separation_length",
+            concat("and min_separation = ", quote(other->second.text), " (", other->second.where,
+                   ") set the same thing; keep one of them."));
+  }
+  limit(c.gmres_tolerance > 0.0 && c.gmres_tolerance < 1.0, "gmres_tolerance",
+        "must be greater than 0 and less than 1; try 1e-8.");
+  limit(c.output_every >= 1, "output_every", "must be at least 1, which writes every step.");
+  if (c.threads) {
+    limit(*c.threads >= 1, "threads", "must be at least 1; leave it out for all cores.");
+    limit(*c.threads <= 1024, "threads", "is above 1024; leave it out for all cores.");
+  }
+}
+
+struct Column {
+  const char* name;
+  bool is_required;
+  const char* help;
+};
+
+constexpr Column columns[] = {
+    {"a", true, "semi-axis along theta, length"},
+    {"b", true, "semi-axis across it, length"},
+    {"x", true, "centre, length"},
+    {"y", true, "centre, length"},
+    {"theta", true, "angle of the semi-axis a, radians, counter-clockwise"},
+    {"force_x", false, "external force; the sum over the bodies is 0 in unbounded flow"},
+    {"force_y", false, "external force"},
+    {"torque", false, "external torque about the centre"},
+    {"fixed", false, "0 or 1; 0 in unbounded flow"},
+};
+
+void check_columns(const Table& table) {
+  std::vector<std::string> known, missing;
+  for (const Column& column : columns) {
+    known.push_back(column.name);
+    if (column.is_required && !table.has_column(column.name)) missing.push_back(column.name);
+  }
+  for (const std::string& name : table.header) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    fail(table.where_header(), "unknown column ", quote(name), "; did you mean ",
+         quote(nearest_name(name, known)), "? The columns are ", join(known, ","), ".");
+  }
+  if (!missing.empty()) {
+    fail(table.where_header(), "the header lacks the required column", missing.size() > 1 ? "s " : " ",
+         join(missing, ", "), "; it can be a,b,x,y,theta.");
+  }
+}
+
+Body read_body(const Table& table, int row) {
+  const auto value = [&](const char* name) {
+    return table.has_column(name) ? table.finite_number(row, table.column(name)) : 0.0;
+  };
+  for (const char* axis : {"a", "b"}) {
+    if (value(axis) > 0.0) continue;
+    fail(table.where(row), "the semi-axis ", axis, " = ", value(axis), " of body ", row,
+         " must be greater than 0; give the half-length of the body.");
+  }
+  const double fixed = value("fixed");
+  if (fixed != 0.0 && fixed != 1.0) {
+    fail(table.where(row), "fixed = ", fixed, " of body ", row,
+         " must be 0 (free) or 1 (held in place).");
+  }
+  if (fixed == 1.0) {
+    fail(table.where(row), "body ", row, " is fixed, but in unbounded flow only free ",
+         "bodies are possible: a held body exerts a net force, for which no bounded flow ",
+         "exists in two dimensions; set fixed to 0.");
+  }
+  return {Shape{value("a"), value("b")},
+          Pose{{value("x"), value("y")}, value("theta")},
+          {value("force_x"), value("force_y")},
+          value("torque")};
+}
+
+// A net force in unbounded two-dimensional Stokes flow has no bounded solution.
+void check_net_force(const Table& table, const Suspension& bodies) {
+  double largest = 0.0;  // scales the sums, which could overflow otherwise
+  for (const Body& body : bodies)
+    largest = std::max({largest, std::abs(body.force.real()), std::abs(body.force.imag())});
+  if (largest == 0.0) return;
+  Complex net{0.0, 0.0};
+  double magnitudes = 0.0;
+  for (const Body& body : bodies) {
+    const Complex scaled(body.force.real() / largest, body.force.imag() / largest);
+    net += scaled;
+    magnitudes += std::abs(scaled);
+  }
+  constexpr double tolerance = 1e-12;
+  if (std::abs(net) <= tolerance * magnitudes) return;
+  fail(table.where_header(), "the external forces sum to (", net.real() * largest, ", ",
+       net.imag() * largest, "), ", std::abs(net) / magnitudes,
+       " of the sum of their magnitudes against at most ", tolerance,
+       " in unbounded flow, where a net force has no bounded flow; subtract the mean force "
+       "from every body.");
+}
+
+}  // namespace
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  std::string end;
+  const GivenKeys given = collect(file, overrides, end);
+  std::vector<std::string> missing;
+  for (const Key& key : keys())
+    if (key.is_required && !given.contains(key.name)) missing.push_back(key.name);
+  if (!missing.empty()) {
+    fail(end, given.empty() ? "the case file is empty" : "the case is not complete",
+         "; add a line `key = value` for each of: ", join(missing, ", "), ".");
+  }
+  Case result;
+  result.file = file;
+  for (const Key& key : keys())
+    if (const auto value = given.find(key.name); value != given.end()) key.set(result, value->second);
+  check_case(result, given);
+  return result;
+}
+
+Suspension read_bodies(const std::filesystem::path& path) {
+  const Table table = parse_csv(read_text_file(path, "the bodies' file"), path.string());
+  check_columns(table);
+  if (table.rows.empty())
+    fail(table.where_header(), "there are no bodies; add a row below the header for each.");
+  Suspension bodies;
+  for (int row = 0; row < static_cast<int>(table.rows.size()); ++row)
+    bodies.push_back(read_body(table, row));
+  check_net_force(table, bodies);
+  return bodies;
+}
+
+double separation_length(const Case& parameters, const Suspension& bodies) {
+  if (parameters.min_separation_length) return *parameters.min_separation_length;
+  double longest = 0.0;
+  for (const Body& body : bodies) longest = std::max(longest, body.shape.perimeter());
+  return parameters.min_separation * longest / parameters.points_per_body;
+}
+
+Comments describe(const Case& parameters) {
+  Comments lines;
+  for (const Key& key : keys()) {
+    if (key.name == "threads" || key.name == "output") continue;
+    if (key.name == "min_separation" && parameters.min_separation_length) continue;
+    lines.emplace_back(key.name, key.get(parameters));
+  }
+  return lines;
+}
+
+std::string case_help() {
+  const auto padded = [](std::string word, std::size_t width) {
+    return word + std::string(word.size() < width ? width - word.size() : 1, ' ');
+  };
+  const Case defaults;
+  std::string text =
+      "A case file has one `key = value` a line; `#` starts a comment. An argument key=value counts as\n"
+      "if written in the file and replaces what it says.\n\n";
+  for (const Key& key : keys()) {
+    const auto standard = padded(key.is_required ? "required" : key.get(defaults), 10);
+    text += concat("  ", padded(key.name, 23), standard, key.help, " (", key.kind, ")\n");
+  }
+  text += "\nThe bodies' file is a CSV: a header line, a row for each body, columns in any order.\n\n";
+  for (const Column& column : columns) {
+    const auto needed = padded(column.is_required ? "required" : "0", 10);
+    text += concat("  ", padded(column.name, 23), needed, column.help, "\n");
+  }
+  return text;
+}
+
+}  // namespace stokes

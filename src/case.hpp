@@ -1,0 +1,68 @@
+// A user's problem: the case file `key = value` and the CSV of its bodies.
+//
+// Every error in either is an InputError of one paragraph: file and line (or the argument), the value
+// against its limit, what to try. To add a key: a member of Case and a line in keys() in case.cpp. To
+// add a value: an enumerator and its word in case.cpp. Limits, if there are any, go into check_case().
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "csv.hpp"
+#include "simulation.hpp"
+
+namespace stokes {
+
+enum class Coupling { global };
+enum class NearSingular { cauchy };
+
+struct Case {
+  std::filesystem::path file;  // the case file; not a key
+
+  // Required.
+  std::string bodies;             // CSV of the bodies, as written: see bodies_path()
+  FlowKind flow = FlowKind::none;
+  int points_per_body = 0;        // even, at least 8
+  double time_step = 0.0;         // time
+  double end_time = 0.0;          // time
+  std::string output;             // folder, relative to the working directory
+
+  // With defaults.
+  double rate = 1.0;                            // 1 / time; may be negative
+  std::optional<double> reverse_at;             // time; every driving changes sign once
+  double min_separation = 0.0;                  // in units of h = longest perimeter / points_per_body
+  std::optional<double> min_separation_length;  // length; instead of min_separation
+  ContactModel contact = ContactModel::gap;
+  Coupling coupling = Coupling::global;
+  NearSingular near_singular = NearSingular::cauchy;
+  double gmres_tolerance = 1e-8;                // relative true residual
+  bool adaptive = false;                        // reject and halve time steps
+  int output_every = 1;                         // steps
+  std::optional<int> threads;                   // all cores if not given
+  TimeCounting time_counting = TimeCounting::exact;
+
+  // The bodies' file; a relative name starts from the case file's folder.
+  std::filesystem::path bodies_path() const { return file.parent_path() / bodies; }
+};
+
+// Reads and checks a case file. Each override `key=value` counts as if written in the file and replaces
+// the value that is written there, right or wrong.
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+
+// Reads and checks the bodies of a suspension in unbounded flow: no fixed bodies, zero net force (to
+// 1e-12 of the sum of the magnitudes). Overlaps are not looked for here.
+Suspension read_bodies(const std::filesystem::path& path);
+
+// The smallest allowed distance between two bodies, in length units.
+double separation_length(const Case& parameters, const Suspension& bodies);
+
+// Every key but `threads` and `output` (results are the same bytes whatever these are) with its value,
+// defaults included: the comment lines of a result. Written as `key = value` they make the same case.
+Comments describe(const Case& parameters);
+
+// What a user can write: every key with its default and values, and the columns of the bodies' file.
+std::string case_help();
+
+}  // namespace stokes

@@ -1,0 +1,116 @@
+#include "cauchy.hpp"
+
+#include "fourier.hpp"
+
+namespace stokes {
+
+namespace {
+
+Curve refine(const Curve& curve, int upsampling) {
+  if (upsampling == 1) return curve;
+  const int fine = curve.size() * upsampling;
+  const ComplexVector first = fourier_upsample(curve.derivative, fine);
+  return Curve(fourier_upsample(curve.position, fine), first, fourier_derivative(first));
+}
+
+// Columns are the images of the unit vectors under `map`.
+template <class Map>
+ComplexMatrix matrix_of(int columns, const Map& map) {
+  ComplexMatrix m;
+  for (int k = 0; k < columns; ++k) {
+    const ComplexVector column = map(ComplexVector::Unit(columns, k));
+    if (k == 0) m.resize(column.size(), columns);
+    m.col(k) = column;
+  }
+  return m;
+}
+
+// Boundary values of C[tau] on the fluid side, by the compensated trapezoid rule
+//   v_j = (1/2 pi i) ( Sum_{k != j} (tau_k - tau_j)/(zeta_k - zeta_j) dz_k + tau'(alpha_j) 2 pi/N ) + { tau_j inside }.
+ComplexMatrix boundary_values(const Curve& curve, const ComplexVector& step, Side side) {
+  const int n = curve.size();
+  const Complex factor = 1.0 / (2.0 * pi * imaginary_unit);
+  ComplexMatrix C = matrix_of(n, fourier_derivative) * (factor * (2.0 * pi / n));
+  for (int j = 0; j < n; ++j) {
+    Complex row_sum = 0.0;
+    for (int k = 0; k < n; ++k) {
+      if (k == j) continue;
+      const Complex c = factor * step[k] / (curve.position[k] - curve.position[j]);
+      C(j, k) += c;
+      row_sum += c;
+    }
+    C(j, j) += (side == Side::interior ? 1.0 : 0.0) - row_sum;
+  }
+  return C;
+}
+
+}  // namespace
+
+CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
+    : s_(side == Side::interior ? 1.0 : -1.0), fine_(refine(curve, upsampling)) {
+  const int n = curve.size(), fine = fine_.size();
+  step_ = fine_.derivative * (2.0 * pi / fine);
+  C_ = boundary_values(fine_, step_, side);
+  refine_ = matrix_of(n, [&](const ComplexVector& eta) { return fourier_upsample(eta, fine); }).real();
+  slope_ = matrix_of(n, [&](const ComplexVector& eta) -> ComplexVector {
+    return fourier_upsample(fourier_derivative(eta), fine).cwiseQuotient(fine_.derivative);
+  });
+}
+
+// Weights of the value at z on the boundary values v_k. With j the nearest node, they are written for the
+// differences v_k - v_j, which keeps full accuracy as z approaches node j. On the exterior side the rule
+// is applied to zeta f, which tends to a constant at infinity.
+void CloseEvaluation::barycentric_weights(Complex z, Eigen::Ref<ComplexVector> weight) const {
+  const int n = fine_.size();
+  const bool exterior = s_ < 0.0;
+  int nearest = 0;
+  double smallest = std::norm(fine_.position[0] - z);
+  for (int k = 1; k < n; ++k) {
+    const double d = std::norm(fine_.position[k] - z);
+    if (d < smallest) smallest = d, nearest = k;
+  }
+  Complex total = 0.0;
+  for (int k = 0; k < n; ++k) {
+    const Complex zeta = fine_.position[k];
+    weight[k] = (exterior ? step_[k] / zeta : step_[k]) / (zeta - z);
+    total += weight[k];
+  }
+  Complex others = 0.0;
+  for (int k = 0; k < n; ++k) {
+    if (k == nearest) continue;
+    weight[k] /= total;
+    others += weight[k];
+  }
+  weight[nearest] = 1.0 - others;
+  if (exterior)
+    for (int k = 0; k < n; ++k) weight[k] *= fine_.position[k] / z;
+}
+
+VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const {
+  const Eigen::Index targets = static_cast<Eigen::Index>(z.size());
+  ComplexMatrix weight(fine_.size(), targets);
+  for (Eigen::Index i = 0; i < targets; ++i) barycentric_weights(z[i], weight.col(i));
+  ComplexMatrix rows = weight.transpose() * C_;  // C[tau](z) from the fine values of tau
+  const Matrix direct = -s_ * (rows.real() * refine_);
+  for (Eigen::Index i = 0; i < targets; ++i)
+    for (Eigen::Index k = 0; k < rows.cols(); ++k) rows(i, k) *= std::conj(z[i] - fine_.position[k]);
+  return {direct, (0.5 * s_) * (rows * slope_).conjugate()};
+}
+
+VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {
+  const double s = side == Side::interior ? 1.0 : -1.0;
+  const int n = curve.size(), targets = static_cast<int>(z.size());
+  VelocityRows rows{Matrix(targets, n), ComplexMatrix(targets, n)};
+  for (int i = 0; i < targets; ++i)
+    for (int k = 0; k < n; ++k) {
+      // (1/pi)(r.n)(r.eta) r/|r|^4 w  with  (r.eta) r = (|r|^2 eta + r^2 conj(eta))/2
+      const Complex r = z[i] - curve.position[k];
+      const Complex normal = -imaginary_unit * s * curve.tangent[k];
+      const double rr = std::norm(r), f = curve.weight[k] * dot(r, normal) / (2.0 * pi * rr);
+      rows.direct(i, k) = f;
+      rows.conjugate(i, k) = f * r * r / rr;
+    }
+  return rows;
+}
+
+}  // namespace stokes

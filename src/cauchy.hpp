@@ -1,0 +1,53 @@
+// Close evaluation of the double layer of one curve, spectrally accurate up to the curve.
+//
+// With the Cauchy integral C[tau](z) = (1/2 pi i) oint tau(zeta) d zeta / (zeta - z), the curve
+// counter-clockwise and side s as in base.hpp, the double layer has the Goursat functions
+//   phi = -(s/2) C[eta],   psi = (s/2) C[ conj(eta) + conj(zeta) eta' ],   eta' = eta_alpha/zeta_alpha,
+// and phi' = -(s/2) C[eta'], so that u = phi - z conj(phi') - conj(psi) becomes
+//   u = -(s/2) ( C[eta] + conj(C[conj(eta)]) - conj(C[conj(z - zeta) eta']) ),
+// in which the near-cancellation of z conj(phi') with psi is already done. The boundary values of Cauchy
+// integrals are linear maps computed once per shape; at a target they are continued by barycentric
+// rational interpolation.
+#pragma once
+
+#include <vector>
+
+#include "curve.hpp"
+
+namespace stokes {
+
+enum class Side { exterior = -1, interior = +1 };  // of the curve on which the fluid lies
+
+// The double layer is real-linear in the density: u = Sum_k ( real_part_k eta_k + conjugate_k conj(eta_k) ).
+// Row i of either matrix belongs to target i; the factor of eta is always real.
+struct VelocityRows {
+  Matrix direct;            // targets x N, factor of eta_k
+  ComplexMatrix conjugate;  // targets x N, factor of conj(eta_k)
+};
+
+class CloseEvaluation {
+ public:
+  // `curve` relative to its centre 0, which must lie inside it. `upsampling` is the factor by which
+  // the density is oversampled, since its products with the curve have a larger bandwidth: 2 up to
+  // aspect ratio 3, 3 beyond, gives spectral accuracy in the density alone. Cost and memory O(upsampling^2 N^2).
+  CloseEvaluation(const Curve& curve, Side side, int upsampling);
+
+  // Rows of the velocity at targets z (same frame as the curve) in the fluid, at any distance > 0 from
+  // the curve. Cost O(upsampling^2 N^2) per target.
+  VelocityRows velocity_rows(const std::vector<Complex>& z) const;
+
+ private:
+  void barycentric_weights(Complex z, Eigen::Ref<ComplexVector> weight) const;
+
+  double s_;
+  Curve fine_;
+  ComplexVector step_;   // zeta' 2 pi / N on the fine nodes
+  ComplexMatrix C_;      // boundary values of C[tau] from the fine values of tau
+  Matrix refine_;        // fine values of eta from eta
+  ComplexMatrix slope_;  // fine values of eta_alpha/zeta_alpha from eta
+};
+
+// Rows of the plain trapezoid rule at the same targets: what the fast sums compute.
+VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z);
+
+}  // namespace stokes

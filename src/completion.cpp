@@ -1,0 +1,41 @@
+#include "completion.hpp"
+
+namespace stokes {
+
+// With z = A w + B/w, A = (a+b)/2, B = (a-b)/2, |w| >= 1 outside, s = A w - B/w = sqrt(z^2 - 4AB):
+//   force F:  u = (1/4 pi) ( -ln|A w| F + F/2 + (conj(F)/2) (z/conj(s) - conj(m)) ),  m = (A^2+B^2)/(A w s)
+//   torque L: phi = i Om B/w, psi = i Om A/w + i Om B (A/w + B w)/(A w^2 - B), Om = L/(4 pi (A^2+B^2)),
+//             u = phi - z conj(phi') - conj(psi)
+Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x) {
+  const double A = 0.5 * (shape.a + shape.b), B = 0.5 * (shape.a - shape.b);
+  const Complex axis = pose.axis();
+  const Complex z = std::conj(axis) * (x - pose.centre);
+  // The product of two principal roots has its cut on the segment between the foci, inside the body
+  // (B >= 0), or between the conjugate foci on the second axis when b > a.
+  const double focus_squared = 4.0 * A * std::abs(B);
+  const Complex focus = B >= 0.0 ? Complex(std::sqrt(focus_squared), 0.0) : Complex(0.0, std::sqrt(focus_squared));
+  const Complex turn = B >= 0.0 ? Complex(1.0, 0.0) : Complex(0.0, -1.0);  // brings the foci to the real axis
+  const Complex s = std::sqrt(turn * (z - focus)) * std::sqrt(turn * (z + focus)) / turn;
+  const Complex w = (z + s) / (2.0 * A);
+
+  const double norm = A * A + B * B;
+  const Complex F = std::conj(axis) * wrench.force;
+  const Complex m = norm / (A * w * s);
+  const Complex from_force =
+      (F * (0.5 - std::log(std::abs(A * w))) + 0.5 * std::conj(F) * (z / std::conj(s) - std::conj(m))) / (4.0 * pi);
+
+  const Complex iOm(0.0, wrench.torque / (4.0 * pi * norm));
+  const Complex phi = iOm * B / w;
+  const Complex dphi = -iOm * B / (A * w * w - B);
+  const Complex psi = iOm * A / w + iOm * B * (A / w + B * w) / (A * w * w - B);
+  const Complex from_torque = phi - z * std::conj(dphi) - std::conj(psi);
+
+  return axis * (from_force + from_torque);
+}
+
+Complex completion_stresslet(const Shape& shape, const Pose& pose, const Wrench& wrench) {
+  const double a2 = shape.a * shape.a, b2 = shape.b * shape.b;
+  return std::polar(1.0, 2.0 * pose.angle) * Complex(0.0, -0.5 * wrench.torque * (a2 - b2) / (a2 + b2));
+}
+
+}  // namespace stokes

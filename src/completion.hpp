@@ -1,0 +1,22 @@
+// Completion flows: what a double layer cannot represent, the flow of a net force and torque on a hole.
+//
+// For an ellipse they are the closed-form flows of the rigid ellipse itself rather than singularities at
+// its centre: their trace on the own boundary is a rigid motion to round-off at any number of nodes,
+// where the trace of a centre singularity is resolved only like exp(-N atanh(b/a)). For a disc they are
+// the Stokeslet with its degenerate quadrupole and the rotlet.
+#pragma once
+
+#include "suspension.hpp"
+
+namespace stokes {
+
+// Velocity at x, on or outside the body, of a body that exerts `wrench` (force, and torque about its
+// centre) on an otherwise quiescent unbounded fluid; up to the constant velocity that the logarithm
+// leaves free.
+Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x);
+
+// Stresslet S_11 + i S_12 (laboratory frame, about the centre) that the completion flow carries: zero
+// for a disc; a torque L on an ellipse carries -i (L/2)(a^2-b^2)/(a^2+b^2) in the body frame.
+Complex completion_stresslet(const Shape& shape, const Pose& pose, const Wrench& wrench);
+
+}  // namespace stokes

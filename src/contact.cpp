@@ -1,0 +1,67 @@
+#include "contact.hpp"
+
+#include <algorithm>
+
+#include "neighbours.hpp"
+
+namespace stokes {
+
+namespace {
+
+constexpr double relative_tolerance = 1e-4;  // of the separation, at active contacts
+constexpr double smallest_separation = 1e-8; // of the smallest semi-axis, when none is asked for
+
+}  // namespace
+
+GapCollector::GapCollector(const Suspension& start, double separation) : start_(start), separation_(separation) {
+  if (separation_ == 0.0) {
+    double smallest = start.front().shape.inradius();
+    for (const Body& body : start) smallest = std::min(smallest, body.shape.inradius());
+    separation_ = smallest_separation * smallest;
+  }
+  tolerance_ = relative_tolerance * separation_;
+}
+
+ContactConstraint GapCollector::evaluate(int a, int b, const std::vector<Pose>& trial) const {
+  const Body &body_a = start_[a], &body_b = start_[b];
+  const Gap before = gap(body_a, body_b);
+  const Gap after = gap(body_a.shape, trial[a], body_b.shape, trial[b]);
+  ContactConstraint contact{a, b, after.value - separation_, tolerance_, gradient(after, trial[a], trial[b]),
+                            gradient(before, body_a.pose, body_b.pose)};
+  if (after.value < separation_ && dot(before.normal, after.normal) > 0.0) return contact;
+  // Apart at the end, or overlapping so far that the normal has turned: did they pass through each other?
+  // Half the separation: a dip below it within a step is a pass, one above it the next step restores.
+  const auto hit = first_hit(body_a.shape, body_a.pose, trial[a], body_b.shape, body_b.pose, trial[b],
+                             0.5 * separation_);
+  if (!hit) return contact;
+  const SeparatingPlane plane = separating_plane(hit->gap, interpolate(body_a.pose, trial[a], hit->tau),
+                                                 interpolate(body_b.pose, trial[b], hit->tau));
+  const double value = stokes::separation(plane, trial[a], trial[b]) - separation_;
+  // Bodies that roll over each other dip below half the separation and part again: the frozen plane then
+  // says so, and the end counts.
+  if (value < contact.value) contact.value = value, contact.gradient = gradient(plane, trial[a], trial[b]);
+  return contact;
+}
+
+std::vector<ContactConstraint> GapCollector::collect(const std::vector<Pose>& trial,
+                                                     const std::vector<std::pair<int, int>>& tracked) const {
+  std::vector<Complex> from, to;
+  std::vector<double> radius;
+  for (std::size_t i = 0; i < start_.size(); ++i) {
+    from.push_back(start_[i].pose.centre);
+    to.push_back(trial[i].centre);
+    radius.push_back(start_[i].shape.circumradius());
+  }
+  std::vector<std::pair<int, int>> pairs = neighbour_pairs(from, to, radius, separation_);
+  std::vector<std::pair<int, int>> all;
+  std::set_union(pairs.begin(), pairs.end(), tracked.begin(), tracked.end(), std::back_inserter(all));
+  std::vector<ContactConstraint> contacts;
+  for (const auto& [a, b] : all) {
+    const ContactConstraint contact = evaluate(a, b, trial);
+    if (contact.value < -tolerance_ || std::binary_search(tracked.begin(), tracked.end(), std::pair(a, b)))
+      contacts.push_back(contact);
+  }
+  return contacts;
+}
+
+}  // namespace stokes

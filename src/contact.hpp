@@ -1,0 +1,55 @@
+// Contact constraints of a time step and the collector that finds them.
+//
+// A constraint is a value that must not be negative at the end of the step, its gradient with respect to
+// the two bodies' poses there, and the generalised force that a unit multiplier exerts. The
+// complementarity solver (ncp.hpp) knows constraints only in this form.
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "gap.hpp"
+#include "suspension.hpp"
+
+namespace stokes {
+
+enum class ContactModel {
+  none,  // bodies that overlap end the run
+  gap,   // exact gap between the bodies
+};
+
+struct ContactConstraint {
+  int a, b;              // bodies, a < b
+  double value;          // satisfied when >= 0; an active contact aims at 0
+  double tolerance;      // |value| below it counts as 0
+  GapGradient gradient;  // of the value, at the trial poses
+  GapGradient force;     // on the bodies for a unit multiplier
+};
+
+// Finds the contacts of one step from the poses at its start: pairs whose gap at the trial poses is below
+// the minimum separation, and pairs that pass through each other on the way there.
+//   value = gap - separation, or, for a pair that passed through, the separation of the material points
+//   that met first along their normal;
+//   force = gradient of the gap at the START of the step, which makes the two forces of a contact
+//   opposite and collinear in the configuration in which the fluid is solved.
+class GapCollector {
+ public:
+  // separation >= 0. With 0 the bodies are kept 1e-8 of the smallest semi-axis apart.
+  GapCollector(const Suspension& start, double separation);
+
+  double separation() const { return separation_; }
+
+  // The violated constraints at the trial poses and those of the `tracked` pairs, violated or not, sorted
+  // by pair. Nothing is missed: every pair that comes closer than the tolerance allows is listed.
+  std::vector<ContactConstraint> collect(const std::vector<Pose>& trial,
+                                         const std::vector<std::pair<int, int>>& tracked) const;
+
+ private:
+  ContactConstraint evaluate(int a, int b, const std::vector<Pose>& trial) const;
+
+  const Suspension& start_;
+  double separation_, tolerance_;
+};
+
+}  // namespace stokes

@@ -1,0 +1,76 @@
+#include "discrete_shape.hpp"
+
+#include <eigen3/Eigen/LU>
+
+namespace stokes {
+
+namespace {
+
+// Factor by which the close evaluation oversamples; the bandwidth on an ellipse grows with its aspect.
+int upsampling_for(const Shape& shape) {
+  const double aspect = shape.circumradius() / shape.inradius();
+  return aspect <= 3.0 ? 2 : 3;
+}
+
+// B: rigid motions at the nodes, 2N x 3.
+Matrix rigid_motions(const Curve& curve) {
+  const int n = curve.size();
+  Matrix B = Matrix::Zero(2 * n, 3);
+  for (int k = 0; k < n; ++k) {
+    B(2 * k, 0) = B(2 * k + 1, 1) = 1.0;
+    const Complex rotation = perp(curve.position[k]);
+    B(2 * k, 2) = rotation.real(), B(2 * k + 1, 2) = rotation.imag();
+  }
+  return B;
+}
+
+}  // namespace
+
+Eigen::Map<const Vector> as_real(const ComplexVector& v) {
+  return {reinterpret_cast<const double*>(v.data()), 2 * v.size()};
+}
+Eigen::Map<Vector> as_real(ComplexVector& v) { return {reinterpret_cast<double*>(v.data()), 2 * v.size()}; }
+
+Matrix real_matrix(const VelocityRows& rows, Complex turn) {
+  Matrix m(2 * rows.direct.rows(), 2 * rows.direct.cols());
+  for (Eigen::Index k = 0; k < rows.direct.cols(); ++k)
+    for (Eigen::Index i = 0; i < rows.direct.rows(); ++i) {
+      const Complex a = turn * rows.direct(i, k), b = turn * rows.conjugate(i, k);
+      m(2 * i, 2 * k) = (a + b).real(), m(2 * i, 2 * k + 1) = (b - a).imag();
+      m(2 * i + 1, 2 * k) = (a + b).imag(), m(2 * i + 1, 2 * k + 1) = (a - b).real();
+    }
+  return m;
+}
+
+DiscreteShape::DiscreteShape(const Shape& shape_, int points)
+    : shape(shape_), curve(shape_.curve(points)), close(curve, Side::exterior, upsampling_for(shape_)) {
+  const int n = points;
+  const Matrix B = rigid_motions(curve);
+  Matrix weighted = B;
+  for (int k = 0; k < n; ++k) weighted.middleRows(2 * k, 2) *= curve.weight[k];
+  moments = (weighted.transpose() * B).inverse() * weighted.transpose();
+  diagonal = curve.curvature.cwiseProduct(curve.weight) / (2.0 * pi);
+
+  VelocityRows self{Matrix(n, n), ComplexMatrix(n, n)};
+  const std::vector<Complex> nodes(curve.position.begin(), curve.position.end());
+  self = trapezoid_rows(curve, Side::exterior, nodes);
+  for (int k = 0; k < n; ++k) {  // t (t . eta) = (eta + t^2 conj(eta)) / 2
+    self.direct(k, k) = 0.5 * diagonal[k] - 0.5;
+    self.conjugate(k, k) = 0.5 * diagonal[k] * curve.tangent[k] * curve.tangent[k];
+  }
+  inverse = (real_matrix(self, 1.0) - 0.5 * B * moments).partialPivLu().inverse();
+}
+
+RigidVelocity DiscreteShape::rigid_part(const Complex* density) const {
+  const Eigen::Map<const Vector> eta(reinterpret_cast<const double*>(density), 2 * size());
+  const Eigen::Vector3d m = moments * eta;
+  return {{m[0], m[1]}, m[2]};
+}
+
+const DiscreteShape& ShapeCache::get(const Shape& shape, int points) {
+  auto& entry = shapes_[{shape.a, shape.b, points}];
+  if (!entry) entry = std::make_unique<DiscreteShape>(shape, points);
+  return *entry;
+}
+
+}  // namespace stokes

@@ -1,0 +1,50 @@
+// A shape at a given resolution, in its body frame, with everything that is computed once per shape and
+// then only rotated: quadrature, rigid-motion moments, close evaluation and the preconditioner block.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "cauchy.hpp"
+#include "curve.hpp"
+#include "shape.hpp"
+#include "suspension.hpp"
+
+namespace stokes {
+
+// Reals of an interleaved density: (Re eta_0, Im eta_0, Re eta_1, ...).
+Eigen::Map<const Vector> as_real(const ComplexVector& v);
+Eigen::Map<Vector> as_real(ComplexVector& v);
+
+// The real 2T x 2N matrix of eta -> turn * (direct eta + conjugate conj(eta)), interleaved both ways.
+Matrix real_matrix(const VelocityRows& rows, Complex turn);
+
+class DiscreteShape {
+ public:
+  DiscreteShape(const Shape& shape, int points);
+
+  int size() const { return curve.size(); }
+
+  // Rigid part of a density: the motion whose quadrature-weighted moments it shares,
+  // (U, omega) = G^-1 B_w^T eta with B = [e1, e2, i x] and G = B_w^T B.
+  RigidVelocity rigid_part(const Complex* density) const;
+
+  Shape shape;
+  Curve curve;
+  CloseEvaluation close;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> moments;  // G^-1 B_w^T, 3 x 2N
+  Vector diagonal;   // s-signed diagonal limit -s kappa w/(2 pi) of the double layer, factor of t (t . eta)
+  Matrix inverse;    // of the deflated block -I/2 + D - (1/2) B G^-1 B_w^T, 2N x 2N
+};
+
+// The shapes in use; each distinct (shape, points) is discretised and factorised once.
+class ShapeCache {
+ public:
+  const DiscreteShape& get(const Shape& shape, int points);
+  int factorisations() const { return static_cast<int>(shapes_.size()); }
+
+ private:
+  std::map<std::tuple<double, double, int>, std::unique_ptr<DiscreteShape>> shapes_;
+};
+
+}  // namespace stokes

@@ -1,0 +1,29 @@
+// Background flows of an unbounded suspension.
+#pragma once
+
+#include "base.hpp"
+
+namespace stokes {
+
+enum class FlowKind {
+  none,       // fluid at rest at infinity
+  shear,      // u = (rate y, 0)
+  extension,  // u = rate (x, -y)
+};
+
+struct BackgroundFlow {
+  FlowKind kind = FlowKind::none;
+  double rate = 1.0;
+
+  // Velocity at the point x.
+  Complex velocity(Complex x) const {
+    switch (kind) {
+      case FlowKind::shear: return {rate * x.imag(), 0.0};
+      case FlowKind::extension: return rate * std::conj(x);
+      case FlowKind::none: break;
+    }
+    return 0.0;
+  }
+};
+
+}  // namespace stokes

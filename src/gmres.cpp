@@ -1,0 +1,122 @@
+#include "gmres.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace stokes {
+
+namespace {
+
+// One cycle: the Krylov basis, the Hessenberg matrix reduced by Givens rotations, and its right-hand side.
+class Cycle {
+ public:
+  Cycle(const Vector& residual, int capacity) : capacity_(capacity) {
+    beta_ = residual.norm();
+    basis_.reserve(capacity + 1);
+    basis_.push_back(residual / beta_);
+    g_.push_back(beta_);
+  }
+
+  int size() const { return static_cast<int>(h_.size()); }
+  bool full() const { return size() == capacity_; }
+  double residual() const { return std::abs(g_.back()); }
+  const Vector& last() const { return basis_.back(); }
+
+  // Extends the space by `w` = A M v, v the last basis vector. Returns false when w lies in the space.
+  bool extend(Vector w) {
+    const int k = size();
+    Vector h = Vector::Zero(k + 2);
+    const double before = w.norm();
+    for (int pass = 0; pass < 2; ++pass)  // the second pass restores orthogonality lost to cancellation
+      for (int i = 0; i <= k; ++i) {
+        const double c = basis_[i].dot(w);
+        w -= c * basis_[i];
+        h[i] += c;
+      }
+    h[k + 1] = w.norm();
+    const bool independent = h[k + 1] > 1e-15 * before;
+    for (int i = 0; i < k; ++i) rotate(h[i], h[i + 1], cosine_[i], sine_[i]);
+    const double r = std::hypot(h[k], h[k + 1]);
+    cosine_.push_back(r > 0.0 ? h[k] / r : 1.0);
+    sine_.push_back(r > 0.0 ? h[k + 1] / r : 0.0);
+    rotate(h[k], h[k + 1], cosine_[k], sine_[k]);
+    g_.push_back(-sine_[k] * g_[k]);
+    g_[k] *= cosine_[k];
+    h_.push_back(h.head(k + 1));
+    if (independent) basis_.push_back(w / w.norm());
+    return independent;
+  }
+
+  // The combination of basis vectors that minimises the residual.
+  Vector correction() const {
+    const int k = size();
+    Vector y(k);
+    for (int i = k - 1; i >= 0; --i) {
+      double sum = g_[i];
+      for (int j = i + 1; j < k; ++j) sum -= h_[j][i] * y[j];
+      y[i] = h_[i][i] != 0.0 ? sum / h_[i][i] : 0.0;
+    }
+    Vector v = Vector::Zero(basis_[0].size());
+    for (int i = 0; i < k; ++i) v += y[i] * basis_[i];
+    return v;
+  }
+
+ private:
+  static void rotate(double& p, double& q, double c, double s) {
+    const double t = c * p + s * q;
+    q = -s * p + c * q;
+    p = t;
+  }
+
+  int capacity_;
+  double beta_ = 0.0;
+  std::vector<Vector> basis_, h_;
+  std::vector<double> g_, cosine_, sine_;
+};
+
+}  // namespace
+
+GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Vector& b,
+                  const Vector& guess, const GmresOptions& options) {
+  GmresResult result;
+  const double scale = b.norm();
+  result.x = guess.size() == b.size() && scale > 0.0 ? guess : Vector::Zero(b.size());
+  if (scale == 0.0) {
+    result.converged = true;
+    return result;
+  }
+  Vector image(b.size()), direction(b.size());
+  Vector residual = b;
+  if (guess.size() == b.size()) {
+    A(result.x, image);
+    residual -= image;
+    if (!(residual.norm() < scale)) {  // worse than starting from zero
+      result.x.setZero();
+      residual = b;
+    }
+  }
+  result.residual = residual.norm() / scale;
+  while (result.residual > options.tolerance && result.iterations < options.max_iterations) {
+    Cycle cycle(residual, options.restart);
+    bool independent = true;
+    while (independent && !cycle.full() && result.iterations < options.max_iterations &&
+           cycle.residual() > 0.9 * options.tolerance * scale) {
+      preconditioner(cycle.last(), direction);
+      A(direction, image);
+      independent = cycle.extend(image);
+      ++result.iterations;
+    }
+    preconditioner(cycle.correction(), direction);
+    result.x += direction;
+    A(result.x, image);
+    residual = b - image;
+    const double previous = result.residual;
+    result.residual = residual.norm() / scale;
+    // A further cycle helps only while cycles still reduce the residual; round-off sets the floor.
+    if (!(result.residual < 0.5 * previous)) break;
+  }
+  result.converged = result.residual <= options.tolerance;
+  return result;
+}
+
+}  // namespace stokes

@@ -1,0 +1,55 @@
+// The contact problem of one time step: with contact-free velocities u0, mobility M and start poses q,
+//   q' = q + dt (u0 + M Sum_l lambda_l f_l),   0 <= value_l(q')  perp  lambda_l >= 0,
+// solved as a sequence of linear complementarity problems for the TOTAL multipliers:
+//   0 <= value_l + Sum_k B_lk (lambda_k - lambda_k^old)  perp  lambda_l >= 0,  B_lk = dt grad_l . M f_k.
+// The fluid is linear, so once M f_k is known an iteration costs no Stokes solve.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "contact.hpp"
+#include "suspension.hpp"
+
+namespace stokes {
+
+// Contact-free velocities or those of one contact, with the density that belongs to them.
+struct Response {
+  std::vector<RigidVelocity> velocity;
+  ComplexVector density;
+};
+
+struct ActiveContact {
+  ContactConstraint constraint;  // value and gradient at the accepted poses
+  double multiplier;             // > 0, a force
+};
+
+struct NcpOptions {
+  int max_iterations = 50;
+  bool demand_progress = false;  // give up when the worst violation is not halved in two iterations
+};
+
+struct NcpResult {
+  bool solved = false;
+  std::string failure;                 // empty when solved
+  int iterations = 0;                  // LCPs solved
+  std::vector<ActiveContact> contacts; // those with a positive multiplier
+  std::vector<Pose> poses;             // at the end of the step
+  Response motion;                     // what moves the bodies there
+  std::vector<Wrench> wrenches;        // contact force and torque on each body
+};
+
+// Violated and tracked constraints at trial poses (GapCollector::collect).
+using ConstraintFunction =
+    std::function<std::vector<ContactConstraint>(const std::vector<Pose>&, const std::vector<std::pair<int, int>>&)>;
+// M f: the response of the suspension to given forces and torques; one Stokes solve.
+using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
+
+// Accepted are poses at which no constraint is violated by more than its tolerance and every contact with
+// a positive multiplier is met to its tolerance. Failure is reported, with what was reached, not thrown.
+NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
+                           const ConstraintFunction& constraints, const MobilityFunction& mobility,
+                           const NcpOptions& options);
+
+}  // namespace stokes

@@ -1,0 +1,38 @@
+#include "progress.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace stokes {
+
+Progress::Progress(double end_time)
+    : end_time_(end_time), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+
+void Progress::clear_line() {
+  if (line_open_) std::fprintf(stderr, "\r\033[K");
+  line_open_ = false;
+}
+
+void Progress::message(const std::string& text) {
+  clear_line();
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
+void Progress::show(const StepRecord& record) {
+  if (!record.outcome) return clear_line();
+  const double done = end_time_ > 0.0 ? record.time / end_time_ : 1.0;
+  const Clock::time_point now = Clock::now();
+  if (terminal_ ? now - last_ < std::chrono::milliseconds(100) : 100.0 * done < next_percent_) return;
+  last_ = now;
+  while (100.0 * done >= next_percent_) next_percent_ += 5;
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double left = done > 0.0 ? elapsed * (1.0 - done) / done : 0.0;
+  clear_line();
+  std::fprintf(stderr, "%3.0f %%  time %.6g of %.6g  step %ld  contacts %zu  iterations %d gmres, %d ncp  %.0f s left%s", 100.0 * done,
+               record.time, end_time_, record.step, record.outcome->contacts.size(), record.outcome->gmres_iterations,
+               record.outcome->ncp_iterations, left, terminal_ ? "" : "\n");
+  line_open_ = terminal_;
+}
+
+}  // namespace stokes

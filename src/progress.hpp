@@ -1,0 +1,31 @@
+// Progress of a long run on stderr: one rewritten line on a terminal, otherwise a line every 5 %.
+#pragma once
+
+#include <chrono>
+
+#include "simulation.hpp"
+
+namespace stokes {
+
+class Progress {
+ public:
+  explicit Progress(double end_time);
+
+  // Time, step, contacts, iterations and the estimated end, at most ten times a second.
+  void show(const StepRecord& record);
+
+  // Prints a line of its own, after the progress line if there is one.
+  void message(const std::string& text);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void clear_line();
+
+  double end_time_;
+  bool terminal_, line_open_ = false;
+  Clock::time_point start_, last_;
+  int next_percent_ = 5;
+};
+
+}  // namespace stokes

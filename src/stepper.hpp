@@ -1,0 +1,75 @@
+// Forward Euler steps, globally implicit: at each configuration the complete Stokes problem is solved, the
+// bodies are moved with the resulting rigid velocities, and contact forces are found such that the moved
+// bodies keep their minimum separation.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact.hpp"
+#include "flow.hpp"
+#include "ncp.hpp"
+#include "stokes_system.hpp"
+
+namespace stokes {
+
+struct StepperOptions {
+  BackgroundFlow flow;
+  int points_per_body = 32;
+  StokesOptions stokes;
+  ContactModel contact = ContactModel::gap;
+  double separation = 0.0;  // length
+};
+
+// An attempted step. Velocities and contact forces are those that move the bodies from the start of the
+// step; iterations count every attempt made from the same configuration.
+struct StepOutcome {
+  bool accepted = false;
+  std::string failure;  // empty when accepted
+  double dt = 0.0;
+  int gmres_iterations = 0, ncp_iterations = 0;
+  std::vector<ActiveContact> contacts;
+  std::vector<RigidVelocity> velocity;
+  std::vector<Wrench> contact_wrench;
+  double density_tail = 0.0;
+};
+
+class Stepper {
+ public:
+  Stepper(Suspension bodies, const StepperOptions& options);
+
+  const Suspension& bodies() const { return bodies_; }
+  int factorisations() const { return shapes_.factorisations(); }
+  int shape_count() const;
+
+  // Tries a step of size dt with the background flow multiplied by `driving`. Accepted, it moves the
+  // bodies; otherwise they stay as they are, bit for bit, and another attempt reuses what was solved.
+  // NumericalError when GMRES fails.
+  StepOutcome attempt(double dt, double driving, const NcpOptions& ncp);
+
+  // The largest step in which, by the contact-free velocities, no body turns by more than 0.2 and no two
+  // neighbours approach by more than half of their smaller width.
+  double geometric_step_limit(double driving);
+
+ private:
+  // What is known of the current configuration.
+  struct Configuration {
+    StokesSystem system;
+    double driving;
+    Response contact_free;
+    int gmres_iterations = 0, ncp_iterations = 0;
+    std::vector<std::pair<std::vector<Wrench>, Response>> columns;  // answered mobility problems
+  };
+  Configuration& configuration(double driving);
+  Response respond(Configuration& now, const std::vector<Wrench>& wrenches);
+
+  Suspension bodies_;
+  StepperOptions options_;
+  ShapeCache shapes_;
+  std::optional<Configuration> now_;
+  ComplexVector guess_;         // background density of the previous step, per unit of driving
+};
+
+}  // namespace stokes

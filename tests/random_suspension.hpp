@@ -1,0 +1,29 @@
+// Suspensions that several tests share.
+#pragma once
+
+#include <random>
+
+#include "gap.hpp"
+#include "suspension.hpp"
+
+namespace stokes {
+
+// Uniform in [0, 1), the same on every machine.
+inline double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
+
+// Six ellipses of three shapes with gaps of at least 0.2.
+inline Suspension six_ellipses() {
+  std::mt19937_64 generator(7);
+  const Shape shapes[] = {{1.0, 0.5}, {0.9, 0.3}, {0.6, 0.6}};
+  Suspension bodies;
+  while (bodies.size() < 6) {
+    const Body body{shapes[bodies.size() % 3],
+                    {{5.0 * uniform(generator), 4.0 * uniform(generator)}, 2.0 * pi * uniform(generator)}, {}, {}};
+    bool apart = true;
+    for (const Body& other : bodies) apart = apart && gap(body, other).value >= 0.2;
+    if (apart) bodies.push_back(body);
+  }
+  return bodies;
+}
+
+}  // namespace stokes
