@@ -26,7 +26,7 @@ ContactConstraint GapCollector::evaluate(int a, int b, const std::vector<Pose>& 
   const Body &body_a = start_[a], &body_b = start_[b];
   const Gap before = gap(body_a, body_b);
   const Gap after = gap(body_a.shape, trial[a], body_b.shape, trial[b]);
-  ContactConstraint contact{a, b, after.value - separation_, tolerance_, gradient(after, trial[a], trial[b]),
+  ContactConstraint contact{a, b, 0, after.value - separation_, tolerance_, gradient(after, trial[a], trial[b]),
                             gradient(before, body_a.pose, body_b.pose)};
   if (after.value < separation_ && dot(before.normal, after.normal) > 0.0) return contact;
   // Apart at the end, or overlapping so far that the normal has turned: did they pass through each other?

@@ -21,6 +21,7 @@ enum class ContactModel {
 
 struct ContactConstraint {
   int a, b;              // bodies, a < b
+  int region;            // several contacts of one pair are told apart by this number, 0, 1, ...
   double value;          // satisfied when >= 0; an active contact aims at 0
   double tolerance;      // |value| below it counts as 0
   GapGradient gradient;  // of the value, at the trial poses
