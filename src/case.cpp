@@ -22,7 +22,10 @@ Words<FlowKind> words_of(FlowKind) {
 Words<ContactModel> words_of(ContactModel) {
   return {{"gap", ContactModel::gap}, {"none", ContactModel::none}};
 }
-Words<Coupling> words_of(Coupling) { return {{"global", Coupling::global}}; }
+Words<Coupling> words_of(Coupling) {
+  return {{"global", Coupling::global}, {"local", Coupling::local}};
+}
+Words<LcpMatrix> words_of(LcpMatrix) { return {{"full", LcpMatrix::full}, {"self", LcpMatrix::self}}; }
 Words<NearSingular> words_of(NearSingular) { return {{"cauchy", NearSingular::cauchy}}; }
 Words<TimeCounting> words_of(TimeCounting) {
   return {{"accumulated", TimeCounting::accumulated}, {"exact", TimeCounting::exact}};
@@ -149,6 +152,7 @@ const std::vector<Key>& keys() {
                "length, instead of min_separation"),
       optional("contact", &Case::contact, "model that keeps bodies apart"),
       optional("coupling", &Case::coupling, "between the bodies in a step"),
+      optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix"),
       optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
       optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),

@@ -15,7 +15,6 @@
 
 namespace stokes {
 
-enum class Coupling { global };
 enum class NearSingular { cauchy };
 
 struct Case {
@@ -36,6 +35,7 @@ struct Case {
   std::optional<double> min_separation_length;  // length; instead of min_separation
   ContactModel contact = ContactModel::gap;
   Coupling coupling = Coupling::global;
+  LcpMatrix lcp_matrix = LcpMatrix::full;
   NearSingular near_singular = NearSingular::cauchy;
   double gmres_tolerance = 1e-8;                // relative true residual
   bool adaptive = false;                        // reject and halve time steps

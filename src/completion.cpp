@@ -33,6 +33,14 @@ Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& 
   return axis * (from_force + from_torque);
 }
 
+// On |w| = 1: u = (1/4 pi) ( (1/2 - ln A) F + (B/2A) conj(F) )  and  omega = Om.
+RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench) {
+  const double A = 0.5 * (shape.a + shape.b), B = 0.5 * (shape.a - shape.b);
+  const Complex axis = pose.axis(), F = std::conj(axis) * wrench.force;
+  return {axis * ((0.5 - std::log(A)) * F + 0.5 * B / A * std::conj(F)) / (4.0 * pi),
+          wrench.torque / (4.0 * pi * (A * A + B * B))};
+}
+
 Complex completion_stresslet(const Shape& shape, const Pose& pose, const Wrench& wrench) {
   const double a2 = shape.a * shape.a, b2 = shape.b * shape.b;
   return std::polar(1.0, 2.0 * pose.angle) * Complex(0.0, -0.5 * wrench.torque * (a2 - b2) / (a2 + b2));

@@ -15,6 +15,10 @@ namespace stokes {
 // leaves free.
 Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x);
 
+// The rigid motion to which that flow reduces on the body's own boundary: the self-mobility of the body. In
+// two dimensions its translational part depends on the unit of length and may be negative.
+RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench);
+
 // Stresslet S_11 + i S_12 (laboratory frame, about the centre) that the completion flow carries: zero
 // for a disc; a torque L on an ellipse carries -i (L/2)(a^2-b^2)/(a^2+b^2) in the body frame.
 Complex completion_stresslet(const Shape& shape, const Pose& pose, const Wrench& wrench);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "lcp.hpp"
 #include "text.hpp"
@@ -11,21 +12,25 @@ namespace stokes {
 
 namespace {
 
-// A contact in the course of the iteration: its constraint at the current poses and its column M f.
+// A contact in the course of the iteration: its constraint at the current poses, and the force that its
+// multiplier now exerts with the column M' f of that force.
 struct Candidate {
   ContactConstraint constraint;
+  GapGradient force;
   Response column;
   double multiplier = 0.0;
 };
 
-using Pair = std::pair<int, int>;
-Pair pair_of(const ContactConstraint& c) { return {c.a, c.b}; }
+using Identity = std::tuple<int, int, int>;
+Identity identity(const ContactConstraint& c) { return {c.a, c.b, c.region}; }
 
-std::vector<Wrench> wrenches_of(const ContactConstraint& c, std::size_t bodies) {
-  std::vector<Wrench> wrenches(bodies);
-  wrenches[c.a] = {c.force.centre_a, c.force.angle_a};
-  wrenches[c.b] = {c.force.centre_b, c.force.angle_b};
-  return wrenches;
+bool same(const GapGradient& u, const GapGradient& v) {
+  return u.centre_a == v.centre_a && u.centre_b == v.centre_b && u.angle_a == v.angle_a && u.angle_b == v.angle_b;
+}
+
+void add_wrench(std::vector<Wrench>& wrenches, const ContactConstraint& c, const GapGradient& force, double factor) {
+  wrenches[c.a].force += factor * force.centre_a, wrenches[c.a].torque += factor * force.angle_a;
+  wrenches[c.b].force += factor * force.centre_b, wrenches[c.b].torque += factor * force.angle_b;
 }
 
 // Rate of the constraint's value when the bodies move with `velocity`.
@@ -41,33 +46,25 @@ std::string name(const ContactConstraint& c) {
 class Iteration {
  public:
   Iteration(const Suspension& start, const Response& contact_free, double dt, const ConstraintFunction& constraints,
-            const MobilityFunction& mobility)
+            const ContactMobility& mobility)
       : start_(start), free_(contact_free), dt_(dt), constraints_(constraints), mobility_(mobility) {}
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
   void update() {
-    motion_ = free_;
-    for (const Candidate& c : candidates_) {
-      if (c.multiplier == 0.0) continue;
-      for (std::size_t i = 0; i < start_.size(); ++i) {
-        motion_.velocity[i].velocity += c.multiplier * c.column.velocity[i].velocity;
-        motion_.velocity[i].omega += c.multiplier * c.column.velocity[i].omega;
-      }
-      motion_.density += c.multiplier * c.column.density;
+    move();
+    std::vector<std::pair<int, int>> tracked;
+    for (Candidate& c : candidates_) {
+      tracked.push_back({c.constraint.a, c.constraint.b});
+      c.constraint.value = 0.0;  // a contact that is no longer found has opened
     }
-    poses_.clear();
-    for (std::size_t i = 0; i < start_.size(); ++i)
-      poses_.push_back(advance(start_[i].pose, motion_.velocity[i], dt_));
-
-    std::vector<Pair> tracked;
-    for (const Candidate& c : candidates_) tracked.push_back(pair_of(c.constraint));
+    tracked.erase(std::unique(tracked.begin(), tracked.end()), tracked.end());
     for (const ContactConstraint& found : constraints_(poses_, tracked)) {
-      const auto place = std::lower_bound(candidates_.begin(), candidates_.end(), pair_of(found),
-                                          [](const Candidate& c, Pair p) { return pair_of(c.constraint) < p; });
-      if (place != candidates_.end() && pair_of(place->constraint) == pair_of(found))
+      const auto place = std::lower_bound(candidates_.begin(), candidates_.end(), identity(found),
+                                          [](const Candidate& c, Identity i) { return identity(c.constraint) < i; });
+      if (place != candidates_.end() && identity(place->constraint) == identity(found))
         place->constraint = found;
       else
-        candidates_.insert(place, {found, mobility_(wrenches_of(found, start_.size())), 0.0});
+        candidates_.insert(place, {found, {}, {}, 0.0});
     }
   }
 
@@ -91,46 +88,78 @@ class Iteration {
   std::string solve() {
     const Eigen::Index m = static_cast<Eigen::Index>(candidates_.size());
     Matrix B(m, m);
-    Vector b(m), old(m);
+    Vector b(m);
     for (Eigen::Index l = 0; l < m; ++l) {
       b[l] = candidates_[l].constraint.value;
-      old[l] = candidates_[l].multiplier;
+      for (const Candidate& k : candidates_)  // take back what the present forces did to the value
+        if (k.multiplier > 0.0) b[l] -= dt_ * k.multiplier * rate(candidates_[l].constraint, k.column.velocity);
+    }
+    for (Candidate& c : candidates_) {
+      if (!c.column.velocity.empty() && same(c.force, c.constraint.force)) continue;
+      c.force = c.constraint.force;
+      std::vector<Wrench> unit(start_.size());
+      add_wrench(unit, c.constraint, c.force, 1.0);
+      c.column = mobility_.column(unit);
+    }
+    for (Eigen::Index l = 0; l < m; ++l)
       for (Eigen::Index k = 0; k < m; ++k)
         B(l, k) = dt_ * rate(candidates_[l].constraint, candidates_[k].column.velocity);
-    }
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(B(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint),
                       " does not part them (mobility ", B(l, l) / dt_,
                       "): the points per body do not resolve so small a gap");
-    const LcpResult lcp = solve_lcp(B, b - B * old);
+    const LcpResult lcp = solve_lcp(B, b);
     if (!lcp.solved) return lcp.message;
     for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
     return {};
   }
 
   void finish(NcpResult& result) {
-    result.wrenches.assign(start_.size(), {});
-    for (const Candidate& c : candidates_) {
-      if (!(c.multiplier > 0.0)) continue;
-      result.contacts.push_back({c.constraint, c.multiplier});
-      const std::vector<Wrench> unit = wrenches_of(c.constraint, start_.size());
-      for (int body : {c.constraint.a, c.constraint.b}) {
-        result.wrenches[body].force += c.multiplier * unit[body].force;
-        result.wrenches[body].torque += c.multiplier * unit[body].torque;
-      }
-    }
+    result.wrenches = wrenches();
+    for (const Candidate& c : candidates_)
+      if (c.multiplier > 0.0) result.contacts.push_back({c.constraint, c.multiplier});
     result.motion = std::move(motion_);
     result.poses = std::move(poses_);
   }
 
  private:
+  // Contact force and torque on every body.
+  std::vector<Wrench> wrenches() const {
+    std::vector<Wrench> total(start_.size());
+    for (const Candidate& c : candidates_)
+      if (c.multiplier > 0.0) add_wrench(total, c.constraint, c.force, c.multiplier);
+    return total;
+  }
+
+  void add_motion(const Response& response, double factor) {
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      motion_.velocity[i].velocity += factor * response.velocity[i].velocity;
+      motion_.velocity[i].omega += factor * response.velocity[i].omega;
+    }
+    motion_.density += factor * response.density;
+  }
+
+  void move() {
+    motion_ = free_;
+    bool forced = false;
+    for (const Candidate& c : candidates_) {
+      if (!(c.multiplier > 0.0)) continue;
+      forced = true;
+      if (!mobility_.response) add_motion(c.column, c.multiplier);
+    }
+    if (forced && mobility_.response) add_motion(mobility_.response(wrenches()), 1.0);
+    poses_.clear();
+    for (std::size_t i = 0; i < start_.size(); ++i)
+      poses_.push_back(advance(start_[i].pose, motion_.velocity[i], dt_));
+  }
+
   const Suspension& start_;
   const Response& free_;
   double dt_;
   const ConstraintFunction& constraints_;
-  const MobilityFunction& mobility_;
-  std::vector<Candidate> candidates_;  // sorted by pair
+  const ContactMobility& mobility_;
+  std::vector<Candidate> candidates_;  // sorted by pair and region
   Response motion_;
   std::vector<Pose> poses_;
 };
@@ -138,7 +167,7 @@ class Iteration {
 }  // namespace
 
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
-                           const ConstraintFunction& constraints, const MobilityFunction& mobility,
+                           const ConstraintFunction& constraints, const ContactMobility& mobility,
                            const NcpOptions& options) {
   NcpResult result;
   Iteration iteration(start, contact_free, dt, constraints, mobility);

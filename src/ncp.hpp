@@ -1,8 +1,9 @@
 // The contact problem of one time step: with contact-free velocities u0, mobility M and start poses q,
 //   q' = q + dt (u0 + M Sum_l lambda_l f_l),   0 <= value_l(q')  perp  lambda_l >= 0,
 // solved as a sequence of linear complementarity problems for the TOTAL multipliers:
-//   0 <= value_l + Sum_k B_lk (lambda_k - lambda_k^old)  perp  lambda_l >= 0,  B_lk = dt grad_l . M f_k.
-// The fluid is linear, so once M f_k is known an iteration costs no Stokes solve.
+//   0 <= value_l - r_l + Sum_k B_lk lambda_k  perp  lambda_l >= 0,  B_lk = dt grad_l . M' f_k,
+// where M' is M or an approximation of it and r_l = dt grad_l . M' (present contact forces). With M' = M the
+// fluid is linear, so that once M f_k is known an iteration costs no Stokes solve.
 #pragma once
 
 #include <functional>
@@ -43,13 +44,18 @@ struct NcpResult {
 // Violated and tracked constraints at trial poses (GapCollector::collect).
 using ConstraintFunction =
     std::function<std::vector<ContactConstraint>(const std::vector<Pose>&, const std::vector<std::pair<int, int>>&)>;
-// M f: the response of the suspension to given forces and torques; one Stokes solve.
+// M f: the response of the suspension to given forces and torques.
 using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
+
+struct ContactMobility {
+  MobilityFunction column;    // M' f for the LCP matrix
+  MobilityFunction response;  // M f for the motion; empty if M' = M, whose columns then superpose
+};
 
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with
 // a positive multiplier is met to its tolerance. Failure is reported, with what was reached, not thrown.
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
-                           const ConstraintFunction& constraints, const MobilityFunction& mobility,
+                           const ConstraintFunction& constraints, const ContactMobility& mobility,
                            const NcpOptions& options);
 
 }  // namespace stokes

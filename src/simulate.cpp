@@ -24,6 +24,8 @@ SimulationOptions options_of(const Case& c, double separation) {
   options.stepper.stokes.gmres_tolerance = c.gmres_tolerance;
   options.stepper.contact = c.contact;
   options.stepper.separation = separation;
+  options.stepper.coupling = c.coupling;
+  options.stepper.lcp_matrix = c.lcp_matrix;
   options.time_step = c.time_step;
   options.end_time = c.end_time;
   options.reverse_at = c.reverse_at;

@@ -11,7 +11,7 @@ namespace stokes {
 namespace {
 
 constexpr double smallest_step = 1e-6;  // of time_step
-constexpr int fixed_step_ncp_limit = 50, adaptive_ncp_limit = 10;
+constexpr int fixed_step_ncp_limit = 5000, adaptive_ncp_limit = 10;
 
 // When each step starts, how long it is and which way the flow is driven.
 class Clock {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "completion.hpp"
 #include "neighbours.hpp"
 
 namespace stokes {
@@ -33,8 +34,10 @@ Stepper::Configuration& Stepper::configuration(double driving) {
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   const BackgroundFlow flow{options_.flow.kind, driving * options_.flow.rate};
-  // Densities live in the body frames, so the previous one is already turned with its body.
-  StokesSolution solution = now_->system.solve(flow, external, driving * guess_);
+  // Densities live in the body frames, so the previous ones are already turned with their bodies.
+  StokesSolution solution = options_.coupling == Coupling::local && lagged_.size() > 0
+                                ? now_->system.sweep(flow, external, lagged_)
+                                : now_->system.solve(flow, external, driving * guess_);
   now_->gmres_iterations = solution.iterations;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
@@ -43,10 +46,18 @@ Stepper::Configuration& Stepper::configuration(double driving) {
 Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches) {
   for (const auto& [known, response] : now.columns)
     if (same(known, wrenches)) return response;
-  StokesSolution solution = now.system.solve({}, wrenches);
+  StokesSolution solution = options_.coupling == Coupling::local ? now.system.sweep({}, wrenches, {})
+                                                                 : now.system.solve({}, wrenches);
   now.gmres_iterations += solution.iterations;
   now.columns.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
   return now.columns.back().second;
+}
+
+Response Stepper::respond_alone(const std::vector<Wrench>& wrenches) const {
+  Response response;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    response.velocity.push_back(completion_trace(bodies_[i].shape, bodies_[i].pose, wrenches[i]));
+  return response;
 }
 
 StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
@@ -56,8 +67,11 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
     return options_.contact == ContactModel::none ? std::vector<ContactConstraint>{}
                                                   : collector.collect(trial, tracked);
   };
-  NcpResult result = resolve_contacts(bodies_, now.contact_free, dt, constraints,
-                                      [&](const std::vector<Wrench>& w) { return respond(now, w); }, ncp);
+  const MobilityFunction full = [&](const std::vector<Wrench>& w) { return respond(now, w); };
+  const MobilityFunction alone = [&](const std::vector<Wrench>& w) { return respond_alone(w); };
+  const ContactMobility mobility =
+      options_.lcp_matrix == LcpMatrix::full ? ContactMobility{full, {}} : ContactMobility{alone, full};
+  NcpResult result = resolve_contacts(bodies_, now.contact_free, dt, constraints, mobility, ncp);
   now.ncp_iterations += result.iterations;
 
   StepOutcome outcome;
@@ -70,6 +84,7 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   outcome.contacts = std::move(result.contacts);
   outcome.contact_wrench = std::move(result.wrenches);
   outcome.density_tail = now.system.density_tail(result.motion.density);
+  lagged_ = std::move(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
   guess_ = driving * now.contact_free.density;

@@ -1,6 +1,6 @@
-// Forward Euler steps, globally implicit: at each configuration the complete Stokes problem is solved, the
-// bodies are moved with the resulting rigid velocities, and contact forces are found such that the moved
-// bodies keep their minimum separation.
+// Forward Euler steps: at each configuration the Stokes problem is solved, the bodies are moved with the
+// resulting rigid velocities, and contact forces are found such that the moved bodies keep their minimum
+// separation.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,25 @@
 
 namespace stokes {
 
+enum class Coupling {
+  global,  // the complete Stokes problem at every configuration
+  local,   // each body's own block; the others' densities are those of the step before (the first: global)
+};
+
+// The mobility in the matrix of the linear complementarity problems.
+enum class LcpMatrix {
+  full,  // the one that moves the bodies
+  self,  // each body as if it were alone; every iterate is then moved with the full mobility
+};
+
 struct StepperOptions {
   BackgroundFlow flow;
   int points_per_body = 32;
   StokesOptions stokes;
   ContactModel contact = ContactModel::gap;
   double separation = 0.0;  // length
+  Coupling coupling = Coupling::global;
+  LcpMatrix lcp_matrix = LcpMatrix::full;
 };
 
 // An attempted step. Velocities and contact forces are those that move the bodies from the start of the
@@ -64,12 +77,14 @@ class Stepper {
   };
   Configuration& configuration(double driving);
   Response respond(Configuration& now, const std::vector<Wrench>& wrenches);
+  Response respond_alone(const std::vector<Wrench>& wrenches) const;
 
   Suspension bodies_;
   StepperOptions options_;
   ShapeCache shapes_;
   std::optional<Configuration> now_;
-  ComplexVector guess_;         // background density of the previous step, per unit of driving
+  ComplexVector guess_;   // background density of the previous step, per unit of driving
+  ComplexVector lagged_;  // total density of the previous step
 };
 
 }  // namespace stokes

@@ -162,42 +162,70 @@ ComplexVector StokesSystem::boundary_velocity(const BackgroundFlow& flow, const 
   return u;
 }
 
-StokesSolution StokesSystem::solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
-                                   const ComplexVector& guess) const {
+// The right-hand side without its rigid part, whose exact solution, body by body and in the body frame, is
+// the rigid velocity returned.
+Vector StokesSystem::straining_data(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                                    std::vector<RigidVelocity>& rigid) const {
   ComplexVector rhs = -boundary_velocity(flow, wrenches);
   const double full_norm = rhs.norm();
-  StokesSolution solution;
-  solution.velocity.resize(body_count());
+  rigid.resize(body_count());
   for (int j = 0; j < body_count(); ++j) {
     const Block& b = blocks_[j];
-    const RigidVelocity rigid = b.shape->rigid_part(&rhs[b.offset]);
+    const RigidVelocity part = b.shape->rigid_part(&rhs[b.offset]);
     for (int k = 0; k < b.shape->size(); ++k)
-      rhs[b.offset + k] -= rigid.velocity + rigid.omega * perp(b.shape->curve.position[k]);
-    solution.velocity[j] = {-rigid.velocity, -rigid.omega};
+      rhs[b.offset + k] -= part.velocity + part.omega * perp(b.shape->curve.position[k]);
+    rigid[j] = {-part.velocity, -part.omega};
   }
   // What is left of a purely rigid right-hand side is round-off, not data.
   if (rhs.norm() <= 1e-14 * full_norm) rhs.setZero();
+  return as_real(rhs);
+}
 
-  const GmresResult result =
-      gmres([this](const Vector& in, Vector& out) { apply(in, out); },
-            [this](const Vector& in, Vector& out) { precondition(in, out); }, as_real(rhs),
-            guess.size() == rhs.size() ? Vector(as_real(guess)) : Vector(),
-            {options_.gmres_tolerance, options_.gmres_max_iterations});
-  if (!result.converged)
-    throw NumericalError("GMRES stopped at a relative residual of " + format_number(result.residual) + " after " +
-                         std::to_string(result.iterations) + " iterations; the tolerance is " +
-                         format_number(options_.gmres_tolerance) +
-                         " (bodies closer than the points resolve? try more points_per_body or a larger separation)");
-  solution.iterations = result.iterations;
-  solution.residual = result.residual;
+// Adds the rigid velocities that the density stands for and turns them into the laboratory frame.
+void StokesSystem::finish(const Vector& density, StokesSolution& solution) const {
   solution.density.resize(node_count());
-  as_real(solution.density) = result.x;
+  as_real(solution.density) = density;
   for (int j = 0; j < body_count(); ++j) {
     const Block& b = blocks_[j];
-    const RigidVelocity rigid = b.shape->rigid_part(&solution.density[b.offset]);
-    solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * rigid.velocity);
-    solution.velocity[j].omega += 0.5 * rigid.omega;
+    const RigidVelocity part = b.shape->rigid_part(&solution.density[b.offset]);
+    solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * part.velocity);
+    solution.velocity[j].omega += 0.5 * part.omega;
   }
+}
+
+StokesSolution StokesSystem::solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                                   const ComplexVector& guess) const {
+  StokesSolution solution;
+  const Vector rhs = straining_data(flow, wrenches, solution.velocity);
+  const GmresResult result = gmres([this](const Vector& in, Vector& out) { apply(in, out); },
+                                   [this](const Vector& in, Vector& out) { precondition(in, out); }, rhs,
+                                   guess.size() == node_count() ? Vector(as_real(guess)) : Vector(),
+                                   {options_.gmres_tolerance, options_.gmres_max_iterations});
+  if (!result.converged)
+    throw NumericalError(concat("GMRES stopped at a relative residual of ", result.residual, " after ", result.iterations,
+                                " iterations; the tolerance is ", options_.gmres_tolerance,
+                                " (bodies closer than the points resolve? try more points_per_body or a larger separation)"));
+  solution.iterations = result.iterations;
+  solution.residual = result.residual;
+  finish(result.x, solution);
+  return solution;
+}
+
+// With A the whole operator and A_d its diagonal blocks, A_d eta = rhs - (A - A_d) lagged is
+// eta = lagged + A_d^-1 (rhs - A lagged).
+StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                                   const ComplexVector& lagged) const {
+  StokesSolution solution;
+  Vector residual = straining_data(flow, wrenches, solution.velocity);
+  Vector density = Vector::Zero(residual.size()), change(residual.size());
+  if (lagged.size() == node_count()) {
+    density = as_real(lagged);
+    apply(density, change);
+    residual -= change;
+  }
+  precondition(residual, change);
+  density += change;
+  finish(density, solution);
   return solution;
 }
 

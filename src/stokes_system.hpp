@@ -48,6 +48,11 @@ class StokesSystem {
   StokesSolution solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& guess = {}) const;
 
+  // One block-Jacobi sweep of the same equations: each body's own block is solved for, the double layers of
+  // the others are taken from `lagged` (a density of this system; empty: zero). Locally implicit stepping.
+  StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                       const ComplexVector& lagged) const;
+
   // Fluid velocity at points in the fluid, accurate up to the boundaries.
   ComplexVector velocity(const std::vector<Complex>& points, const ComplexVector& density,
                          const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
@@ -77,6 +82,9 @@ class StokesSystem {
   ComplexVector in_laboratory(const Complex* density) const;
   void apply(const Vector& in, Vector& out) const;
   void precondition(const Vector& in, Vector& out) const;
+  Vector straining_data(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                        std::vector<RigidVelocity>& rigid) const;
+  void finish(const Vector& density, StokesSolution& solution) const;
   ComplexVector boundary_velocity(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
   Complex driven_velocity(Complex x, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
 

@@ -18,7 +18,7 @@ struct Random {
     return low + (high - low) * (static_cast<double>(engine() >> 11) * 0x1p-53);
   }
   Complex direction() { return std::polar(1.0, uniform(0.0, 2.0 * pi)); }
-  // Semi-axes of size about 1, either one the longer, of at most that aspect ratio.
+  // Either semi-axis may be the longer one.
   Shape shape(double aspect_ratio) {
     const double size = std::exp(uniform(-1.0, 1.0));
     const Shape shape{size, size * std::exp(uniform(-std::log(aspect_ratio), 0.0))};
@@ -169,8 +169,7 @@ TEST_CASE("no direction separates two bodies more than the normal, for any overl
         if (trial % 4 == 0) b.shape = a.shape;
         if (trial % 5 == 0) b.pose.angle = a.pose.angle;
         if (trial % 6 == 0) b.shape.a = b.shape.b;
-        CAPTURE(aspect_ratio);
-        CAPTURE(spread);
+        INFO("aspect ratio ", aspect_ratio, ", spread ", spread);
         CHECK(largest_excess(a, b, gap(a, b).value, 2000) < 1e-15);
       }
     }
@@ -216,7 +215,6 @@ TEST_CASE("the gap's gradient is that of finite differences for separated and ov
     const Body &a = bodies.first, &b = bodies.second;
     const Gap g = gap(a, b);
     const GapGradient analytic = gradient(g, a.pose, b.pose);
-    const double step = 1e-5;
     double worst = 0.0;
     bool kink = false;  // two directions tie in between: no derivative
     const auto compare = [&](const Pose& da, const Pose& db, double derivative) {
@@ -224,9 +222,9 @@ TEST_CASE("the gap's gradient is that of finite differences for separated and ov
         return gap(a.shape, {a.pose.centre + s * da.centre, a.pose.angle + s * da.angle}, b.shape,
                    {b.pose.centre + s * db.centre, b.pose.angle + s * db.angle});
       };
-      const Gap forth = moved(step), back = moved(-step);
+      const Gap forth = moved(1e-5), back = moved(-1e-5);
       kink = kink || std::abs(forth.normal - back.normal) > 1e-2;
-      worst = std::max(worst, std::abs((forth.value - back.value) / (2.0 * step) - derivative));
+      worst = std::max(worst, std::abs((forth.value - back.value) / 2e-5 - derivative));
     };
     compare({1.0, 0.0}, {}, analytic.centre_a.real());
     compare({imaginary_unit, 0.0}, {}, analytic.centre_a.imag());
@@ -236,11 +234,10 @@ TEST_CASE("the gap's gradient is that of finite differences for separated and ov
     compare({}, {0.0, 1.0}, analytic.angle_b);
     if (kink) continue;
     ++(g.value > 0.0 ? separated : overlapping);
-    // Rounding 1e-15 / step, truncation step^2 times a third derivative of at most a few hundred.
+    // Rounding 1e-15 / 1e-5, truncation 1e-10 times a third derivative of at most a few hundred.
     CHECK(worst < 5e-8);
   }
-  CHECK(separated > 100);
-  CHECK(overlapping > 100);
+  CHECK(std::min(separated, overlapping) > 100);
 }
 
 TEST_CASE("contact forces of a pair have no net force and no net torque") {
@@ -324,8 +321,7 @@ TEST_CASE("the first hit of 10 000 motions is where and only where densely sampl
     ++(hit ? hits : misses);
     passes += hit && gap_at(1.0) > threshold;
   }
-  CHECK(misses > 1000);
-  CHECK(hits > 1000);
+  CHECK(std::min(misses, hits) > 1000);
   CHECK(passes > 500);
 }
 
@@ -349,9 +345,8 @@ TEST_CASE("discs hit at the time of their closed form, and pass at a distance ab
 
 TEST_CASE("a pair that starts below the threshold is a hit only if it goes deeper") {
   const Shape a{3.0, 1.0}, b{2.0, 0.5};
-  const double threshold = 0.1;
-  const auto hit = [&](double start, Pose end) {  // b above a, moving to `end` from a gap of `start`
-    return first_hit(a, {}, {}, b, {{0.0, 1.5 + start}, 0.0}, end, threshold);
+  const auto hit = [&](double start, const Pose& end) {  // b above a, moving to `end` from that gap
+    return first_hit(a, {}, {}, b, {{0.0, 1.5 + start}, 0.0}, end, 0.1);
   };
   for (const double start : {-0.02, 0.0, 0.09, 0.1, 0.10005}) {
     CAPTURE(start);
@@ -369,11 +364,12 @@ TEST_CASE("a pair that starts below the threshold is a hit only if it goes deepe
     CHECK(turning->gap.value < start - 1e-4);
     CHECK(turning->gap.value > start - 2.001e-4);
   }
-  // Rises above the threshold before the long axis comes round, and is held there when it does.
-  const auto returning = hit(0.05, {{0.0, 5.05}, pi});
-  REQUIRE(returning);
-  CHECK(returning->gap.value >= threshold);
-  CHECK(returning->gap.value <= 1.001 * threshold);
+  // Rises by 0.002 above its start, and 0.0015 above the threshold, before its longer axis comes round.
+  const Shape disc{1.0, 1.0}, slow{1.0, 0.9};
+  const auto back = first_hit(disc, {}, {}, slow, {{0.0, 1.9095}, 0.0}, {{0.0, 1.9195}, 0.33}, 0.01);
+  REQUIRE(back);
+  CHECK(back->gap.value >= 0.01);
+  CHECK(back->gap.value <= 1.001 * 0.01);
 }
 
 TEST_CASE("the plane of a hit shows the end of a pass-through as violated, with its exact gradient") {

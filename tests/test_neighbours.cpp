@@ -103,6 +103,8 @@ TEST_CASE("neighbour pairs are found in clusters a billion apart, and across suc
     CHECK(neighbours(circles, 0.1) == brute_force(circles, 0.1));
     CHECK(neighbours(circles, 1.5e9) == brute_force(circles, 1.5e9));
   }
+  const std::vector<Complex> remote{{1e140, 0.0}, {-1e140, 1.0}, {-1e140, 0.0}};
+  CHECK(neighbours({remote, remote, {1.0, 1.0, 1.0}}, 0.0) == Pairs{{1, 2}});
 }
 
 TEST_CASE("circles that just touch are neighbours, wherever the cells' borders are") {
