@@ -15,7 +15,7 @@ FLAGS     = -std=c++20 $(WARNINGS) $(CXXFLAGS) $(ARCH) $(OPENMP) $(SANITIZERS) -
 LIBS      = -lfftw3 $(LDLIBS)
 
 names        = $(basename $(notdir $(wildcard $(1))))
-PROGRAMS    := simulate
+PROGRAMS    := simulate bench
 EXPERIMENTS := $(call names,experiments/*.cpp)
 LIBRARY     := $(filter-out $(PROGRAMS),$(call names,src/*.cpp))
 TESTS       := $(call names,tests/*.cpp)
@@ -120,6 +120,11 @@ reproduce-quick: $(BUILD)/verify
 	@$(BUILD)/verify results=$(RESULTS) missing=allow
 verify: $(BUILD)/verify
 	@$(BUILD)/verify results=$(RESULTS)
+
+# --- timings: nothing of them is compared -----------------------------------------------------------------
+bench: $(BUILD)/bench
+	@$(BUILD)/bench threads=1
+	@$(BUILD)/bench | tail -n +2
 
 clean:
 	rm -rf $(BUILD) $(RESULTS)

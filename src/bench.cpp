@@ -1,0 +1,87 @@
+// bench [threads=K]: times the kernels and the solver; one CSV table on stdout.
+//   quantity,size,threads,value,unit      value: median of five
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "direct_sum.hpp"
+#include "stepper.hpp"
+#include "text.hpp"
+#include "threads.hpp"
+
+namespace {
+
+using namespace stokes;
+
+double median_seconds(const std::function<void()>& work) {
+  std::vector<double> seconds;
+  for (int run = 0; run < 5; ++run) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  std::sort(seconds.begin(), seconds.end());
+  return seconds[2];
+}
+
+void report(const char* quantity, long size, double value, const char* unit) {
+  std::printf("%s,%ld,%d,%.4g,%s\n", quantity, size, thread_count(), value, unit);
+  std::fflush(stdout);
+}
+
+void bench_direct_sum(int points) {
+  PointArray nodes, normals;
+  nodes.resize(points), normals.resize(points);
+  ComplexVector density(points), velocity;
+  for (int k = 0; k < points; ++k) {
+    nodes.set(k, std::polar(std::sqrt(k + 1.0), 2.4 * k));
+    normals.set(k, std::polar(0.1, 1.0 * k));
+    density[k] = std::polar(1.0, 0.3 * k);
+  }
+  const double seconds = median_seconds([&] { double_layer_velocity(nodes, nodes, normals, density, velocity); });
+  report("direct_sum", points, 1e-9 * points * points / seconds, "1e9 pairs per second");
+}
+
+// Ellipses of aspect 3 on a square lattice, gaps of about half a semi-axis.
+Suspension lattice(int side) {
+  Suspension bodies;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j)
+      bodies.push_back({{0.45, 0.15}, {{1.1 * i, 0.6 * j}, 0.02 * (i + 2 * j)}, {}, {}});
+  return bodies;
+}
+
+void bench_step(int side, int points) {
+  StepperOptions options;
+  options.flow = {FlowKind::shear, 1.0};
+  options.points_per_body = points;
+  options.stokes.gmres_tolerance = 1e-6;
+  Stepper stepper(lattice(side), options);
+  int iterations = 0;
+  stepper.attempt(1e-3, 1.0, {});
+  const double seconds = median_seconds([&] { iterations = stepper.attempt(1e-3, 1.0, {}).gmres_iterations; });
+  report("step", static_cast<long>(side) * side * points, seconds, "seconds");
+  report("step_gmres_iterations", static_cast<long>(side) * side * points, iterations, "1");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const auto threads = argument.starts_with("threads=") ? parse_integer(argument.substr(8)) : std::nullopt;
+    if (!threads || *threads < 1 || *threads > 1024) {
+      std::fprintf(stderr, "usage: bench [threads=K]\n");
+      return 2;
+    }
+    set_thread_count(static_cast<int>(*threads));
+  }
+  std::printf("quantity,size,threads,value,unit\n");
+  for (int points : {64, 1024, 4096}) bench_direct_sum(points);
+  bench_step(2, 32);
+  bench_step(7, 32);
+}
