@@ -17,7 +17,7 @@ void run_case(const std::string& name, const Results& results) {
     if (case_name(separation) != name) continue;
     TwoDiscs parameters;
     parameters.separation_over_h = *parse_number(separation);
-    const TwoDiscRun run = run_two_discs(parameters);
+    const TwoDiscRun run = complete_two_discs(parameters);
     results.write(name, {{"separation_over_h", parameters.separation_over_h},
                          {"displacement", run.left.back().imag() - run.left[0].imag()},
                          {"smallest_gap_over_h", run.smallest_gap_over_h},

@@ -14,9 +14,9 @@ void run_case(const std::string& name, const Results& results) {
   TwoDiscs parameters;
   parameters.first = {-8.0, *parse_number(name.substr(1))};
   parameters.time_step = 0.1;
-  const TwoDiscRun free = run_two_discs(parameters);
+  const TwoDiscRun free = complete_two_discs(parameters);
   parameters.separation_over_h = 3.0;
-  const TwoDiscRun run = run_two_discs(parameters);
+  const TwoDiscRun run = complete_two_discs(parameters);
   results.write(name, {{"start_y", parameters.first.imag()},
                        {"end_y", run.left.back().imag()},
                        {"free_end_y", free.left.back().imag()},

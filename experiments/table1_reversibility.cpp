@@ -21,11 +21,6 @@ std::string case_name(const std::string& separation, const std::string& time_ste
   return concat("delta", separation, "h_dt", time_step);
 }
 
-double reversal_error(const TwoDiscRun& run) {
-  const double moved = std::norm(run.left.back() - run.left[0]) + std::norm(run.right.back() - run.right[0]);
-  return std::sqrt(moved / (std::norm(run.left[0]) + std::norm(run.right[0])));
-}
-
 void run_case(const std::string& name, const Results& results) {
   for (const std::string& separation : separations)
     for (const std::string& time_step : time_steps) {
@@ -36,9 +31,9 @@ void run_case(const std::string& name, const Results& results) {
       parameters.time_step = *parse_number(time_step);
       parameters.end_time = 20.0;
       parameters.reverse_at = 10.0;
-      const TwoDiscRun exact = run_two_discs(parameters);
+      const TwoDiscRun exact = complete_two_discs(parameters);
       parameters.time_counting = TimeCounting::accumulated;
-      const TwoDiscRun run = run_two_discs(parameters);
+      const TwoDiscRun run = complete_two_discs(parameters);
       results.write(name,
                     {{"separation_over_h", parameters.separation_over_h},
                      {"time_step", parameters.time_step},

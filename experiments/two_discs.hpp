@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <vector>
 
 #include "simulation.hpp"
@@ -9,12 +11,18 @@
 namespace stokes {
 
 struct TwoDiscs {
-  double rate = 1.0;                 // u = (rate y, 0)
+  FlowKind flow = FlowKind::shear;
+  double rate = 1.0;
   Complex first{-8.0, 0.5};          // start of the left disc
-  double separation_over_h = 0.0;    // delta / h, h = pi/32 the point spacing; 0 with contact = none
+  Complex second{0.0, 0.0};          // and of the right one
+  double separation_over_h = 0.0;    // delta / h, h = pi/32 the point spacing
   double time_step = 0.2, end_time = 40.0;
   std::optional<double> reverse_at;
   TimeCounting time_counting = TimeCounting::exact;
+  bool adaptive = false;
+  ContactModel contact = ContactModel::gap;
+  Coupling coupling = Coupling::global;
+  LcpMatrix lcp_matrix = LcpMatrix::full;
 };
 
 struct TwoDiscRun {
@@ -26,26 +34,39 @@ struct TwoDiscRun {
   double worst_force_balance = 0.0;   // largest net contact force or torque (about the origin)
   long steps = 0, contact_steps = 0, gmres_iterations = 0, largest_ncp_iterations = 0;
   double smallest_gap_over_h = 0.0;
+  long rejected = 0;
   int factorisations = 0;
+  std::string failure;                // why the run ended early, or empty
+
+  double mean_ncp_iterations() const {  // of the steps with contact
+    long sum = 0, steps_with = 0;
+    for (int n : ncp_iterations) sum += n, steps_with += n > 0;
+    return steps_with ? static_cast<double>(sum) / static_cast<double>(steps_with) : 0.0;
+  }
 };
 
 inline constexpr int disc_points = 32;
 inline constexpr double disc_radius = 0.5;
 inline constexpr double disc_spacing = 2.0 * pi * disc_radius / disc_points;  // h
 
+// A numerical failure ends the run and is told in `failure`.
 inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
   SimulationOptions options;
-  options.stepper.flow = {FlowKind::shear, parameters.rate};
+  options.stepper.flow = {parameters.flow, parameters.rate};
   options.stepper.points_per_body = disc_points;
   options.stepper.separation = parameters.separation_over_h * disc_spacing;
   options.time_step = parameters.time_step;
   options.end_time = parameters.end_time;
   options.reverse_at = parameters.reverse_at;
   options.time_counting = parameters.time_counting;
+  options.adaptive = parameters.adaptive;
+  options.stepper.contact = parameters.contact;
+  options.stepper.coupling = parameters.coupling;
+  options.stepper.lcp_matrix = parameters.lcp_matrix;
   const Shape disc{disc_radius, disc_radius};
 
   TwoDiscRun run;
-  const RunSummary summary = simulate({{disc, {parameters.first, 0.0}}, {disc, {}}}, options, [&](const StepRecord& record) {
+  const auto observe = [&](const StepRecord& record) {
     run.time.push_back(record.time);
     run.left.push_back(record.bodies[0].pose.centre);
     run.right.push_back(record.bodies[1].pose.centre);
@@ -65,11 +86,31 @@ inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
       torque += w.torque + cross(record.bodies[body].pose.centre, w.force);
     }
     run.worst_force_balance = std::max({run.worst_force_balance, std::abs(force), std::abs(torque)});
-  });
-  run.steps = summary.steps;
-  run.factorisations = summary.factorisations;
+  };
+  try {
+    const RunSummary summary = simulate({{disc, {parameters.first, 0.0}, {}, 0.0}, {disc, {parameters.second, 0.0}, {}, 0.0}}, options, observe);
+    run.steps = summary.steps;
+    run.rejected = summary.rejected;
+    run.factorisations = summary.factorisations;
+  } catch (const NumericalError& error) {
+    run.failure = error.what();
+    run.steps = static_cast<long>(run.ncp_iterations.size());
+  }
   run.smallest_gap_over_h = *std::min_element(run.gap_over_h.begin(), run.gap_over_h.end());
   return run;
+}
+
+// The same for a run that must reach its end: a failure is thrown.
+inline TwoDiscRun complete_two_discs(const TwoDiscs& parameters) {
+  TwoDiscRun run = run_two_discs(parameters);
+  if (!run.failure.empty()) throw NumericalError(run.failure);
+  return run;
+}
+
+// Relative distance of both centres at the end from where they started, as in Table 1.
+inline double reversal_error(const TwoDiscRun& run) {
+  const double moved = std::norm(run.left.back() - run.left[0]) + std::norm(run.right.back() - run.right[0]);
+  return std::sqrt(moved / (std::norm(run.left[0]) + std::norm(run.right[0])));
 }
 
 }  // namespace stokes

@@ -365,8 +365,8 @@ TEST_CASE("a pair that starts below the threshold is a hit only if it goes deepe
     CHECK(turning->gap.value > start - 2.001e-4);
   }
   // Rises by 0.002 above its start, and 0.0015 above the threshold, before its longer axis comes round.
-  const Shape disc{1.0, 1.0}, slow{1.0, 0.9};
-  const auto back = first_hit(disc, {}, {}, slow, {{0.0, 1.9095}, 0.0}, {{0.0, 1.9195}, 0.33}, 0.01);
+  const Shape disc{100.0, 100.0}, slow{1.0, 0.9};
+  const auto back = first_hit(disc, {}, {}, slow, {{0.0, 100.9095}, 0.0}, {{0.0, 100.9195}, 0.33}, 0.01);
   REQUIRE(back);
   CHECK(back->gap.value >= 0.01);
   CHECK(back->gap.value <= 1.001 * 0.01);

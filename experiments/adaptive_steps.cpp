@@ -1,0 +1,48 @@
+// Adaptive steps (section 3.3): the runs of Table 1 at delta = 3h with fixed steps, and from a step four times
+// as large that is halved when contact is not resolved and grown again by 1.5.
+
+#include "experiment.hpp"
+#include "two_discs.hpp"
+
+namespace {
+
+using namespace stokes;
+
+const std::vector<std::string> time_steps = {"0.04", "0.02", "0.01"};
+
+void run_case(const std::string& name, const Results& results) {
+  TwoDiscs parameters;
+  parameters.adaptive = name.starts_with("adaptive");
+  parameters.rate = 2.0;
+  parameters.separation_over_h = 3.0;
+  parameters.time_step = *parse_number(name.substr(name.find("_dt") + 3));
+  parameters.end_time = 20.0;
+  parameters.reverse_at = 10.0;
+  const TwoDiscRun run = complete_two_discs(parameters);
+  double smallest_step = parameters.time_step;
+  for (std::size_t k = 0; k + 1 < run.time.size(); ++k) smallest_step = std::min(smallest_step, run.time[k + 1] - run.time[k]);
+  results.write(name, {{"time_step", parameters.time_step},
+                       {"accepted", static_cast<double>(run.steps)},
+                       {"rejected", static_cast<double>(run.rejected)},
+                       {"smallest_step", smallest_step},
+                       {"gmres_iterations", static_cast<double>(run.gmres_iterations)},
+                       {"largest_ncp_iterations", static_cast<double>(run.largest_ncp_iterations)},
+                       {"smallest_gap_over_h", run.smallest_gap_over_h},
+                       {"reversal_error", reversal_error(run)},
+                       {"end_time", run.time.back()}});
+}
+
+std::vector<std::string> cases() {
+  std::vector<std::string> names;
+  for (const std::string& time_step : time_steps) {
+    names.push_back("fixed_dt" + time_step);
+    names.push_back(concat("adaptive_dt", 4.0 * *parse_number(time_step)));
+  }
+  return names;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_experiment({"adaptive_steps", cases(), run_case, [](const Results&) {}}, argc, argv);
+}
