@@ -180,7 +180,7 @@ TEST_CASE("a case without its required keys names every missing one") {
   CHECK_CONTAINS(case_refusal("", {"rate=1"}), "case.txt:1: the case is not complete");
   for (const char* key : {"bodies", "flow", "points_per_body", "time_step", "end_time", "output"}) {
     std::string text = complete;
-    text.insert(text.find(concat(key, " =")), "#");
+    text.insert(text.find(concat(key, " =")), 1, '#');
     CHECK_CONTAINS(case_refusal(text), concat("for each of: ", key, "."));
   }
 }
@@ -246,7 +246,7 @@ TEST_CASE("a word that is not a value is refused with the values and the nearest
   CHECK_REFUSED("contact = gab",
                 "contact = 'gab' is unknown: it can be gap or none; did you mean 'gap'?");
   CHECK_ARGUMENT("flow=sheer", "it can be shear or extension or none; did you mean 'shear'?");
-  CHECK_ARGUMENT("coupling=globl", "it can be global; did you mean 'global'?");
+  CHECK_ARGUMENT("coupling=globl", "it can be global or local; did you mean 'global'?");
   CHECK_ARGUMENT("near_singular=Cauchy", "it can be cauchy; did you mean 'cauchy'?");
   CHECK_ARGUMENT("time_counting=exactly", "it can be accumulated or exact; did you mean 'exact'?");
   CHECK_ARGUMENT("adaptive=y", "it can be yes or no; did you mean 'yes'?");
