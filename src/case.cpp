@@ -17,7 +17,10 @@ template <class Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
 Words<FlowKind> words_of(FlowKind) {
-  return {{"shear", FlowKind::shear}, {"extension", FlowKind::extension}, {"none", FlowKind::none}};
+  return {{"shear", FlowKind::shear},
+          {"extension", FlowKind::extension},
+          {"taylor_green", FlowKind::taylor_green},
+          {"none", FlowKind::none}};
 }
 Words<ContactModel> words_of(ContactModel) {
   return {{"gap", ContactModel::gap}, {"none", ContactModel::none}};
@@ -139,7 +142,7 @@ Key optional(std::string name, std::optional<Value> Case::*member, std::string u
 const std::vector<Key>& keys() {
   static const std::vector<Key> table = {
       required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file"),
-      required("flow", &Case::flow, "background flow: shear (rate y, 0), extension rate (x, -y)"),
+      required("flow", &Case::flow, "background: shear (rate y, 0), extension rate (x, -y), taylor_green rate (cos x sin y, -sin x cos y)"),
       required("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8"),
       required("time_step", &Case::time_step, "length of a step, time"),
       required("end_time", &Case::end_time, "when to stop, time"),

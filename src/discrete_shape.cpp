@@ -67,6 +67,44 @@ RigidVelocity DiscreteShape::rigid_part(const Complex* density) const {
   return {{m[0], m[1]}, m[2]};
 }
 
+double near_distance(const DiscreteShape& shape) { return 7.0 * shape.curve.max_spacing(); }
+
+std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z) {
+  const double limit = near_distance(shape);
+  std::vector<int> rows;
+  for (int i = 0; i < static_cast<int>(z.size()); ++i)
+    for (int k = 0; k < shape.size(); ++k)
+      if (std::norm(z[i] - shape.curve.position[k]) < limit * limit) {
+        rows.push_back(i);
+        break;
+      }
+  return rows;
+}
+
+VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z) {
+  VelocityRows rows = shape.close.velocity_rows(z);
+  const VelocityRows plain = trapezoid_rows(shape.curve, Side::exterior, z);
+  rows.direct -= plain.direct;
+  rows.conjugate -= plain.conjugate;
+  return rows;
+}
+
+Matrix interaction(const PlacedShape& target, const PlacedShape& source) {
+  std::vector<Complex> z, close;
+  for (int k = 0; k < target.size(); ++k) z.push_back(source.local(target.node(k)));
+  VelocityRows rows = trapezoid_rows(source.shape->curve, Side::exterior, z);
+  const std::vector<int> near = near_rows(*source.shape, z);
+  for (int row : near) close.push_back(z[row]);
+  if (!near.empty()) {
+    const VelocityRows accurate = source.shape->close.velocity_rows(close);
+    for (std::size_t r = 0; r < near.size(); ++r) {
+      rows.direct.row(near[r]) = accurate.direct.row(r);
+      rows.conjugate.row(near[r]) = accurate.conjugate.row(r);
+    }
+  }
+  return real_matrix(rows, source.axis * std::conj(target.axis));
+}
+
 const DiscreteShape& ShapeCache::get(const Shape& shape, int points) {
   auto& entry = shapes_[{shape.a, shape.b, points}];
   if (!entry) entry = std::make_unique<DiscreteShape>(shape, points);

@@ -1,6 +1,8 @@
 // Background flows of an unbounded suspension.
 #pragma once
 
+#include <cmath>
+
 #include "base.hpp"
 
 namespace stokes {
@@ -9,6 +11,7 @@ enum class FlowKind {
   none,       // fluid at rest at infinity
   shear,      // u = (rate y, 0)
   extension,  // u = rate (x, -y)
+  taylor_green,  // u = rate (cos x sin y, -sin x cos y); no Stokes flow: it needs a body force on the fluid
 };
 
 struct BackgroundFlow {
@@ -20,6 +23,8 @@ struct BackgroundFlow {
     switch (kind) {
       case FlowKind::shear: return {rate * x.imag(), 0.0};
       case FlowKind::extension: return rate * std::conj(x);
+      case FlowKind::taylor_green:
+        return rate * Complex(std::cos(x.real()) * std::sin(x.imag()), -std::sin(x.real()) * std::cos(x.imag()));
       case FlowKind::none: break;
     }
     return 0.0;

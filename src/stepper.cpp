@@ -30,7 +30,7 @@ int Stepper::shape_count() const {
 
 Stepper::Configuration& Stepper::configuration(double driving) {
   if (now_ && now_->driving == driving) return *now_;
-  now_.emplace(Configuration{StokesSystem(bodies_, options_.points_per_body, shapes_, options_.stokes), driving, {}, 0, 0, {}});
+  now_.emplace(bodies_, options_, shapes_, driving);
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   const BackgroundFlow flow{options_.flow.kind, driving * options_.flow.rate};

@@ -69,6 +69,9 @@ class Stepper {
  private:
   // What is known of the current configuration.
   struct Configuration {
+    Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes, double driving_)
+        : system(bodies, options.points_per_body, shapes, options.stokes), driving(driving_) {}
+
     StokesSystem system;
     double driving;
     Response contact_free;

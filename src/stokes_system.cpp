@@ -5,6 +5,7 @@
 
 #include "completion.hpp"
 #include "fourier.hpp"
+#include "gap.hpp"
 #include "gmres.hpp"
 #include "neighbours.hpp"
 #include "text.hpp"
@@ -14,36 +15,14 @@ namespace stokes {
 
 namespace {
 
-// Targets within this many (largest) point spacings of a curve get the close evaluation; beyond, the
-// trapezoid rule is exact to 1e-10 or better (its error on a disc decays like (1 + d/a)^-N).
-constexpr double near_spacings = 7.0;
+// Pairs closer than this part of the smaller circumradius are solved together by the preconditioner.
+constexpr double close_pair = 0.2;
 
 Wrench wrench_of(const std::vector<Wrench>& wrenches, int body) {
   return wrenches.empty() ? Wrench{} : wrenches[body];
 }
 
 bool is_zero(const Wrench& w) { return w.force == Complex(0.0) && w.torque == 0.0; }
-
-std::vector<int> rows_near(const Curve& curve, const std::vector<Complex>& z) {
-  const double limit = near_spacings * curve.max_spacing();
-  std::vector<int> rows;
-  for (int i = 0; i < static_cast<int>(z.size()); ++i)
-    for (int k = 0; k < curve.size(); ++k)
-      if (std::norm(z[i] - curve.position[k]) < limit * limit) {
-        rows.push_back(i);
-        break;
-      }
-  return rows;
-}
-
-// Close evaluation minus what the plain sum already holds.
-VelocityRows correction_rows(const DiscreteShape& shape, const std::vector<Complex>& z) {
-  VelocityRows rows = shape.close.velocity_rows(z);
-  const VelocityRows plain = trapezoid_rows(shape.curve, Side::exterior, z);
-  rows.direct -= plain.direct;
-  rows.conjugate -= plain.conjugate;
-  return rows;
-}
 
 }  // namespace
 
@@ -56,23 +35,33 @@ StokesSystem::StokesSystem(const Suspension& bodies, int points, ShapeCache& sha
     offset += shape.size();
   }
   nodes_.resize(offset), weighted_normal_.resize(offset);
-  for (const Block& b : blocks_)
+  for (const PlacedShape& b : blocks_)
     for (int k = 0; k < b.shape->size(); ++k) {
       const Curve& curve = b.shape->curve;
-      nodes_.set(b.offset + k, b.pose.centre + b.axis * curve.position[k]);
+      nodes_.set(b.offset + k, b.node(k));
       weighted_normal_.set(b.offset + k, b.axis * imaginary_unit * curve.tangent[k] * curve.weight[k]);
     }
   find_near_blocks();
+  std::vector<std::pair<int, int>> pairs;
+  if (options.preconditioner == PreconditionerKind::pair)
+    for (const NearBlock& n : near_) {
+      const Body &a = bodies[n.target], &b = bodies[n.source];
+      const double limit = close_pair * std::min(a.shape.circumradius(), b.shape.circumradius());
+      if (gap(a, b).value < limit) pairs.push_back(std::minmax(n.target, n.source));
+    }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  preconditioner_.emplace(options.preconditioner, blocks_, pairs);
 }
 
 void StokesSystem::find_near_blocks() {
   std::vector<Complex> centres;
   std::vector<double> radii;
   double reach = 0.0;
-  for (const Block& b : blocks_) {
+  for (const PlacedShape& b : blocks_) {
     centres.push_back(b.pose.centre);
     radii.push_back(b.shape->shape.circumradius());
-    reach = std::max(reach, near_spacings * b.shape->curve.max_spacing());
+    reach = std::max(reach, near_distance(*b.shape));
   }
   for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, reach)) {
     near_.push_back({i, j, {}, {}});
@@ -83,15 +72,15 @@ void StokesSystem::find_near_blocks() {
   });
   parallel_for_large(static_cast<long>(near_.size()), node_count(), [&](long n) {
     NearBlock& near = near_[n];
-    const Block &target = blocks_[near.target], &source = blocks_[near.source];
+    const PlacedShape &target = blocks_[near.target], &source = blocks_[near.source];
     std::vector<Complex> z(target.shape->size());
     for (int k = 0; k < target.shape->size(); ++k)
-      z[k] = std::conj(source.axis) * (nodes_[target.offset + k] - source.pose.centre);
-    near.rows = rows_near(source.shape->curve, z);
+      z[k] = source.local(nodes_[target.offset + k]);
+    near.rows = near_rows(*source.shape, z);
     if (near.rows.empty()) return;
     std::vector<Complex> close;
     for (int row : near.rows) close.push_back(z[row]);
-    near.matrix = real_matrix(correction_rows(*source.shape, close), source.axis * std::conj(target.axis));
+    near.matrix = real_matrix(near_correction(*source.shape, close), source.axis * std::conj(target.axis));
   });
   std::erase_if(near_, [](const NearBlock& n) { return n.rows.empty(); });
   first_near_.assign(blocks_.size() + 1, 0);
@@ -101,7 +90,7 @@ void StokesSystem::find_near_blocks() {
 
 ComplexVector StokesSystem::in_laboratory(const Complex* density) const {
   ComplexVector lab(node_count());
-  for (const Block& b : blocks_)
+  for (const PlacedShape& b : blocks_)
     for (int k = 0; k < b.shape->size(); ++k) lab[b.offset + k] = b.axis * density[b.offset + k];
   return lab;
 }
@@ -115,7 +104,7 @@ void StokesSystem::apply(const Vector& in, Vector& out) const {
 
   Complex* result = reinterpret_cast<Complex*>(out.data());
   const auto finish_body = [&](long i) {
-    const Block& b = blocks_[i];
+    const PlacedShape& b = blocks_[i];
     const Curve& curve = b.shape->curve;
     const Complex* own = eta + b.offset;
     const RigidVelocity rigid = b.shape->rigid_part(own);
@@ -126,21 +115,13 @@ void StokesSystem::apply(const Vector& in, Vector& out) const {
     }
     for (int n = first_near_[i]; n < first_near_[i + 1]; ++n) {
       const NearBlock& near = near_[n];
-      const Block& source = blocks_[near.source];
+      const PlacedShape& source = blocks_[near.source];
       const Vector correction = near.matrix * in.segment(2 * source.offset, 2 * source.shape->size());
       for (std::size_t r = 0; r < near.rows.size(); ++r)
         result[b.offset + near.rows[r]] += Complex(correction[2 * r], correction[2 * r + 1]);
     }
   };
   parallel_for_large(body_count(), node_count(), finish_body);
-}
-
-void StokesSystem::precondition(const Vector& in, Vector& out) const {
-  parallel_for_large(body_count(), node_count(), [&](long i) {
-    const Block& b = blocks_[i];
-    out.segment(2 * b.offset, 2 * b.shape->size()).noalias() =
-        b.shape->inverse * in.segment(2 * b.offset, 2 * b.shape->size());
-  });
 }
 
 Complex StokesSystem::driven_velocity(Complex x, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const {
@@ -155,7 +136,7 @@ Complex StokesSystem::driven_velocity(Complex x, const BackgroundFlow& flow, con
 ComplexVector StokesSystem::boundary_velocity(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const {
   ComplexVector u(node_count());
   parallel_for_large(body_count(), node_count(), [&](long i) {
-    const Block& b = blocks_[i];
+    const PlacedShape& b = blocks_[i];
     for (int k = 0; k < b.shape->size(); ++k)
       u[b.offset + k] = std::conj(b.axis) * driven_velocity(nodes_[b.offset + k], flow, wrenches);
   });
@@ -170,7 +151,7 @@ Vector StokesSystem::straining_data(const BackgroundFlow& flow, const std::vecto
   const double full_norm = rhs.norm();
   rigid.resize(body_count());
   for (int j = 0; j < body_count(); ++j) {
-    const Block& b = blocks_[j];
+    const PlacedShape& b = blocks_[j];
     const RigidVelocity part = b.shape->rigid_part(&rhs[b.offset]);
     for (int k = 0; k < b.shape->size(); ++k)
       rhs[b.offset + k] -= part.velocity + part.omega * perp(b.shape->curve.position[k]);
@@ -186,7 +167,7 @@ void StokesSystem::finish(const Vector& density, StokesSolution& solution) const
   solution.density.resize(node_count());
   as_real(solution.density) = density;
   for (int j = 0; j < body_count(); ++j) {
-    const Block& b = blocks_[j];
+    const PlacedShape& b = blocks_[j];
     const RigidVelocity part = b.shape->rigid_part(&solution.density[b.offset]);
     solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * part.velocity);
     solution.velocity[j].omega += 0.5 * part.omega;
@@ -198,7 +179,7 @@ StokesSolution StokesSystem::solve(const BackgroundFlow& flow, const std::vector
   StokesSolution solution;
   const Vector rhs = straining_data(flow, wrenches, solution.velocity);
   const GmresResult result = gmres([this](const Vector& in, Vector& out) { apply(in, out); },
-                                   [this](const Vector& in, Vector& out) { precondition(in, out); }, rhs,
+                                   [this](const Vector& in, Vector& out) { preconditioner_->apply(in, out); }, rhs,
                                    guess.size() == node_count() ? Vector(as_real(guess)) : Vector(),
                                    {options_.gmres_tolerance, options_.gmres_max_iterations});
   if (!result.converged)
@@ -223,7 +204,7 @@ StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector
     apply(density, change);
     residual -= change;
   }
-  precondition(residual, change);
+  Preconditioner(PreconditionerKind::block, blocks_, {}).apply(residual, change);
   density += change;
   finish(density, solution);
   return solution;
@@ -238,13 +219,13 @@ ComplexVector StokesSystem::velocity(const std::vector<Complex>& points, const C
   ComplexVector u;
   double_layer_velocity(targets, nodes_, weighted_normal_, in_laboratory(density.data()), u);
   for (int i = 0; i < count; ++i) u[i] += driven_velocity(points[i], flow, wrenches);
-  for (const Block& b : blocks_) {
+  for (const PlacedShape& b : blocks_) {
     std::vector<Complex> z(count), close;
-    for (int i = 0; i < count; ++i) z[i] = std::conj(b.axis) * (points[i] - b.pose.centre);
-    const std::vector<int> rows = rows_near(b.shape->curve, z);
+    for (int i = 0; i < count; ++i) z[i] = b.local(points[i]);
+    const std::vector<int> rows = near_rows(*b.shape, z);
     if (rows.empty()) continue;
     for (int row : rows) close.push_back(z[row]);
-    const Vector correction = real_matrix(correction_rows(*b.shape, close), b.axis) *
+    const Vector correction = real_matrix(near_correction(*b.shape, close), b.axis) *
                               as_real(density).segment(2 * b.offset, 2 * b.shape->size());
     for (std::size_t r = 0; r < rows.size(); ++r) u[rows[r]] += Complex(correction[2 * r], correction[2 * r + 1]);
   }
@@ -254,7 +235,7 @@ ComplexVector StokesSystem::velocity(const std::vector<Complex>& points, const C
 std::vector<Complex> StokesSystem::stresslets(const ComplexVector& density, const std::vector<Wrench>& wrenches) const {
   std::vector<Complex> result(body_count());
   for (int j = 0; j < body_count(); ++j) {
-    const Block& b = blocks_[j];
+    const PlacedShape& b = blocks_[j];
     // n = i t on a body, and S_11 + i S_12 = -Int n eta ds as a complex product.
     Complex sum = 0.0;
     for (int k = 0; k < b.shape->size(); ++k)
@@ -267,7 +248,7 @@ std::vector<Complex> StokesSystem::stresslets(const ComplexVector& density, cons
 double StokesSystem::density_tail(const ComplexVector& density) const {
   double largest = 0.0;
   const double scale = density.size() > 0 ? density.cwiseAbs().maxCoeff() : 0.0;
-  for (const Block& b : blocks_) {
+  for (const PlacedShape& b : blocks_) {
     const int n = b.shape->size();
     ComplexVector own = density.segment(b.offset, n);
     const RigidVelocity rigid = b.shape->rigid_part(own.data());

@@ -11,11 +11,13 @@
 // of the data and does not degrade with a body's distance from the origin.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "direct_sum.hpp"
 #include "discrete_shape.hpp"
 #include "flow.hpp"
+#include "preconditioner.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -23,6 +25,7 @@ namespace stokes {
 struct StokesOptions {
   double gmres_tolerance = 1e-8;  // relative, on the true residual
   int gmres_max_iterations = 1000;
+  PreconditionerKind preconditioner = PreconditionerKind::pair;
 };
 
 // Result of one solve. `density` carries no part along the rigid right-hand side; it is linear in the
@@ -36,6 +39,9 @@ struct StokesSolution {
 
 class StokesSystem {
  public:
+  StokesSystem(const StokesSystem&) = delete;
+  StokesSystem& operator=(const StokesSystem&) = delete;
+
   // Discretises every body with `points` nodes. `shapes` must outlive the system. Cost O(N) plus the
   // close-evaluation blocks of bodies nearer than a few point spacings.
   StokesSystem(const Suspension& bodies, int points, ShapeCache& shapes, const StokesOptions& options);
@@ -66,12 +72,6 @@ class StokesSystem {
   double density_tail(const ComplexVector& density) const;
 
  private:
-  struct Block {  // a body's part of the unknown
-    const DiscreteShape* shape;
-    Pose pose;
-    Complex axis;
-    int offset;
-  };
   struct NearBlock {  // correction of the trapezoid sum from `source` at some nodes of `target`
     int target, source;
     std::vector<int> rows;  // node numbers within the target body
@@ -81,7 +81,6 @@ class StokesSystem {
   void find_near_blocks();
   ComplexVector in_laboratory(const Complex* density) const;
   void apply(const Vector& in, Vector& out) const;
-  void precondition(const Vector& in, Vector& out) const;
   Vector straining_data(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                         std::vector<RigidVelocity>& rigid) const;
   void finish(const Vector& density, StokesSolution& solution) const;
@@ -89,11 +88,11 @@ class StokesSystem {
   Complex driven_velocity(Complex x, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
 
   StokesOptions options_;
-  std::vector<Block> blocks_;
-  std::vector<Shape> body_shapes_;
+  std::vector<PlacedShape> blocks_;  // one per body
   PointArray nodes_, weighted_normal_;
   std::vector<NearBlock> near_;       // ordered by target body
   std::vector<int> first_near_;       // near_ of body i: [first_near_[i], first_near_[i + 1])
+  std::optional<Preconditioner> preconditioner_;
 };
 
 }  // namespace stokes

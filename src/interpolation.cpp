@@ -1,0 +1,144 @@
+#include "interpolation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fourier.hpp"
+
+namespace stokes {
+
+namespace {
+
+// In units of h: the first point on the normal is the first beyond the near zone.
+constexpr double normal_spacing = 1.1;
+
+Curve upsampled(const Curve& curve) {
+  const int n = curve.size();
+  if (n < 8 || n % 2 != 0)
+    throw InputError("close evaluation by interpolation needs an even number of nodes, at least 8; got " +
+                     std::to_string(n));
+  const int factor = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(n))));
+  return Curve::through(fourier_upsample(curve.position, n * factor));
+}
+
+// Weights at t of the values at 0, 1, ..., Count-1 in their interpolating polynomial.
+template <int Count>
+std::array<double, Count> lagrange_weights(double t) {
+  std::array<double, Count> weight;
+  for (int i = 0; i < Count; ++i) {
+    weight[i] = 1.0;
+    for (int j = 0; j < Count; ++j)
+      if (j != i) weight[i] *= (t - j) / (i - j);
+  }
+  return weight;
+}
+
+// Rows of -1/2 I + D at the nodes: the trapezoid rule with the diagonal limit -s kappa/(2 pi) t (t . eta).
+VelocityRows boundary_limit(const Curve& curve, Side side) {
+  const double s = side == Side::interior ? 1.0 : -1.0;
+  VelocityRows rows = trapezoid_rows(curve, side, {curve.position.begin(), curve.position.end()});
+  for (int k = 0; k < curve.size(); ++k) {  // t (t . eta) = (eta + t^2 conj(eta)) / 2
+    const double diagonal = -s * curve.curvature[k] * curve.weight[k] / (4.0 * pi);
+    rows.direct(k, k) = diagonal - 0.5;
+    rows.conjugate(k, k) = diagonal * curve.tangent[k] * curve.tangent[k];
+  }
+  return rows;
+}
+
+}  // namespace
+
+InterpolationEvaluation::InterpolationEvaluation(const Curve& curve, Side side)
+    : side_(side),
+      curve_(curve),
+      fine_(upsampled(curve)),
+      h_(curve.length() / curve.size()),
+      coefficients_(fourier_coefficients(curve.position)),
+      limit_(boundary_limit(curve, side)) {}
+
+// Newton's method on |zeta(alpha) - z|^2 / 2 from the nearest fine node. The closest point is
+// within a fine step or so of it, which bounds the steps; where the second derivative is
+// not safely positive (z beyond a centre of curvature) the Gauss-Newton one replaces it.
+InterpolationEvaluation::BoundaryPoint InterpolationEvaluation::closest_point(Complex z, int fine_node) const {
+  const int n = curve_.size();
+  const double longest_step = 2.0 * pi / fine_.size();
+  double alpha = longest_step * fine_node;
+  for (int iteration = 0;; ++iteration) {
+    const Complex turn = std::polar(1.0, alpha);
+    Complex zeta = coefficients_[0], first = 0.0, second = 0.0, power = 1.0;
+    for (int k = 1; k < n / 2; ++k) {
+      power *= turn;
+      const Complex plus = coefficients_[k] * power, minus = coefficients_[n - k] * std::conj(power);
+      const double mode = k;
+      zeta += plus + minus;
+      first += imaginary_unit * mode * (plus - minus);
+      second -= mode * mode * (plus + minus);
+    }
+    const double nyquist = 0.5 * n;
+    const Complex last = coefficients_[n / 2];
+    zeta += last * std::cos(nyquist * alpha);
+    first -= nyquist * last * std::sin(nyquist * alpha);
+    second -= nyquist * nyquist * last * std::cos(nyquist * alpha);
+
+    const double metric = std::norm(first), curved = metric + dot(second, zeta - z);
+    const double step = -dot(first, zeta - z) / (curved > 0.1 * metric ? curved : metric);
+    if (std::abs(step) < 1e-14 || iteration == 50) return {alpha, zeta, first};
+    alpha += std::clamp(step, -longest_step, longest_step);
+  }
+}
+
+InterpolationEvaluation::Stencil InterpolationEvaluation::stencil(Complex z) const {
+  int nearest = 0;
+  (fine_.position.array() - z).abs2().minCoeff(&nearest);
+  const Stencil far{0, {}, {z}, Vector::Ones(1)};
+  if (std::abs(fine_.position[nearest] - z) > h_ + fine_.max_spacing()) return far;
+  const BoundaryPoint foot = closest_point(z, nearest);
+  if (std::abs(z - foot.position) >= h_) return far;
+
+  // The normal into the fluid is (z - x0)/|z - x0| without the division that fails on the curve.
+  const double s = side_ == Side::interior ? 1.0 : -1.0;
+  const Complex into_fluid = s * perp(foot.derivative) / std::abs(foot.derivative);
+  const double spacing = normal_spacing * h_;
+  const auto across = lagrange_weights<order>(dot(z - foot.position, into_fluid) / spacing);
+  const double node = foot.alpha * curve_.size() / (2.0 * pi);
+  const int first_node = static_cast<int>(std::lround(node)) - order / 2;
+  const auto along = lagrange_weights<order>(node - first_node);
+
+  Stencil near{first_node, along, std::vector<Complex>(order - 1), Vector(order - 1)};
+  for (int k = 0; k < order; ++k) near.node_weight[k] *= across[0];
+  for (int k = 1; k < order; ++k) {
+    near.points[k - 1] = foot.position + k * spacing * into_fluid;
+    near.point_weight[k - 1] = across[k];
+  }
+  return near;
+}
+
+// The row over the nodes that acts on a density as `fine_row` acts on its upsampled values: the
+// transpose of fourier_upsample.
+ComplexVector InterpolationEvaluation::restricted(const ComplexVector& fine_row) const {
+  const Eigen::Index n = curve_.size(), fine = fine_row.size();
+  const ComplexVector c = fourier_coefficients(fine_row);
+  ComplexVector coarse(n);
+  coarse.head(n / 2) = c.head(n / 2);
+  coarse.tail(n / 2 - 1) = c.tail(n / 2 - 1);
+  coarse[n / 2] = 0.5 * (c[n / 2] + c[fine - n / 2]);
+  return fourier_values(coarse) * (static_cast<double>(fine) / static_cast<double>(n));
+}
+
+VelocityRows InterpolationEvaluation::velocity_rows(const std::vector<Complex>& z) const {
+  const int n = curve_.size(), targets = static_cast<int>(z.size());
+  VelocityRows rows{Matrix(targets, n), ComplexMatrix(targets, n)};
+  for (int i = 0; i < targets; ++i) {
+    const Stencil stencil_i = stencil(z[i]);
+    const VelocityRows fine = trapezoid_rows(fine_, side_, stencil_i.points);
+    rows.direct.row(i) = restricted(fine.direct.transpose() * stencil_i.point_weight).real().transpose();
+    rows.conjugate.row(i) = restricted(fine.conjugate.transpose() * stencil_i.point_weight).transpose();
+    for (int k = 0; k < order; ++k) {
+      const int node = (stencil_i.first_node + k + n) % n;
+      rows.direct.row(i) += stencil_i.node_weight[k] * limit_.direct.row(node);
+      rows.conjugate.row(i) += stencil_i.node_weight[k] * limit_.conjugate.row(node);
+    }
+  }
+  return rows;
+}
+
+}  // namespace stokes

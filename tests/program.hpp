@@ -1,0 +1,119 @@
+// Runs build/simulate (or the program that the environment variable SIMULATE names) as a user would: in a
+// folder of its own, from which only the exit status, the two streams and the files come back.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "base.hpp"
+#include "csv.hpp"
+
+namespace stokes {
+
+// A fresh folder, removed with all that is in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::random_device random;
+    do path_ = std::filesystem::temp_directory_path() / concat("stokes_run_", random());
+    while (!std::filesystem::create_directory(path_));
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string content_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct ProgramRun {
+  int status;  // exit status; 128 + signal if one ended it
+  std::string output, errors;
+};
+
+// What a run wrote. Fields are read as numbers, nan and inf included; anything else throws.
+struct Results {
+  Table trajectory, steps;
+
+  std::vector<double> step_column(std::string_view name) const { return steps.numbers(name); }
+
+  // Down the steps that have rows, for one body.
+  std::vector<double> body_column(int body, std::string_view name) const {
+    const std::vector<double> bodies = trajectory.numbers("body"), all = trajectory.numbers(name);
+    std::vector<double> values;
+    for (std::size_t row = 0; row < all.size(); ++row)
+      if (bodies[row] == body) values.push_back(all[row]);
+    return values;
+  }
+};
+
+class Workspace {
+ public:
+  void write(const std::filesystem::path& name, std::string_view text) const {
+    std::ofstream(path() / name, std::ios::binary) << text;
+  }
+  const std::filesystem::path& path() const { return folder_.path(); }
+
+  // simulate ARGUMENTS in this folder.
+  ProgramRun run(const std::vector<std::string>& arguments) const {
+    const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
+    const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
+    std::string command = concat("cd ", shell_word(path().string()), " && ", shell_word(program()));
+    for (const std::string& argument : arguments) command += " " + shell_word(argument);
+    const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content_of(out), content_of(err)};
+  }
+
+  Results results(const std::filesystem::path& output = "out") const {
+    return {read_csv(path() / output / "trajectory.csv"), read_csv(path() / output / "steps.csv")};
+  }
+
+  // Every file and folder with its content.
+  std::map<std::string, std::string> everything() const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path()))
+      files[entry.path().string()] = entry.is_regular_file() ? content_of(entry.path()) : "(not a file)";
+    return files;
+  }
+
+ private:
+  static std::string program() {
+    const char* name = std::getenv("SIMULATE");
+    return std::filesystem::absolute(name ? name : "build/simulate").string();
+  }
+
+  static std::string shell_word(const std::string& text) {
+    std::string word = "'";
+    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return word + "'";
+  }
+
+  TemporaryFolder folder_;
+};
+
+// The required keys; `settings` holds further lines or arguments that replace these.
+inline std::string case_text(const std::string& flow, int points, double time_step, double end_time,
+                             const std::string& settings = "") {
+  return concat("bodies = bodies.csv\nflow = ", flow, "\npoints_per_body = ", points, "\ntime_step = ", time_step,
+                "\nend_time = ", end_time, "\noutput = out\n", settings);
+}
+
+}  // namespace stokes
