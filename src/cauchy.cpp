@@ -72,28 +72,49 @@ void CloseEvaluation::barycentric_weights(Complex z, Eigen::Ref<ComplexVector> w
   Complex total = 0.0;
   for (int k = 0; k < n; ++k) {
     const Complex zeta = fine_.position[k];
-    weight[k] = (exterior ? step_[k] / zeta : step_[k]) / (zeta - z);
+    weight[k] = quotient(exterior ? quotient(step_[k], zeta) : step_[k], zeta - z);
     total += weight[k];
   }
+  const Complex scale = reciprocal(total);
   Complex others = 0.0;
   for (int k = 0; k < n; ++k) {
     if (k == nearest) continue;
-    weight[k] /= total;
+    weight[k] *= scale;
     others += weight[k];
   }
   weight[nearest] = 1.0 - others;
   if (exterior)
-    for (int k = 0; k < n; ++k) weight[k] *= fine_.position[k] / z;
+    for (int k = 0; k < n; ++k) weight[k] *= quotient(fine_.position[k], z);
+}
+
+// Row of C[tau](z) on the fine values of tau. From six fine spacings on the trapezoid rule itself is exact to
+// round-off, exp(-12 pi); nearer, the boundary values are continued.
+ComplexMatrix CloseEvaluation::cauchy_rows(const std::vector<Complex>& z) const {
+  const Eigen::Index n = fine_.size(), targets = static_cast<Eigen::Index>(z.size());
+  const double limit = 6.0 * fine_.max_spacing();
+  ComplexMatrix rows(targets, n), weight(n, targets);
+  std::vector<Eigen::Index> close;
+  for (Eigen::Index i = 0; i < targets; ++i) {
+    double smallest = limit * limit;
+    for (Eigen::Index k = 0; k < n; ++k) smallest = std::min(smallest, std::norm(fine_.position[k] - z[i]));
+    if (smallest < limit * limit) {
+      barycentric_weights(z[i], weight.col(static_cast<Eigen::Index>(close.size())));
+      close.push_back(i);
+    } else {
+      for (Eigen::Index k = 0; k < n; ++k)
+        rows(i, k) = quotient(step_[k], 2.0 * pi * imaginary_unit * (fine_.position[k] - z[i]));
+    }
+  }
+  const ComplexMatrix continued = weight.leftCols(static_cast<Eigen::Index>(close.size())).transpose() * C_;
+  for (std::size_t r = 0; r < close.size(); ++r) rows.row(close[r]) = continued.row(static_cast<Eigen::Index>(r));
+  return rows;
 }
 
 VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const {
-  const Eigen::Index targets = static_cast<Eigen::Index>(z.size());
-  ComplexMatrix weight(fine_.size(), targets);
-  for (Eigen::Index i = 0; i < targets; ++i) barycentric_weights(z[i], weight.col(i));
-  ComplexMatrix rows = weight.transpose() * C_;  // C[tau](z) from the fine values of tau
+  ComplexMatrix rows = cauchy_rows(z);
   const Matrix direct = -s_ * (rows.real() * refine_);
-  for (Eigen::Index i = 0; i < targets; ++i)
-    for (Eigen::Index k = 0; k < rows.cols(); ++k) rows(i, k) *= std::conj(z[i] - fine_.position[k]);
+  for (Eigen::Index k = 0; k < rows.cols(); ++k)
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) rows(i, k) *= std::conj(z[i] - fine_.position[k]);
   return {direct, (0.5 * s_) * (rows * slope_).conjugate()};
 }
 

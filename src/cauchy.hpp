@@ -37,6 +37,7 @@ class CloseEvaluation {
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 
  private:
+  ComplexMatrix cauchy_rows(const std::vector<Complex>& z) const;
   void barycentric_weights(Complex z, Eigen::Ref<ComplexVector> weight) const;
 
   double s_;

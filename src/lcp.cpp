@@ -1,12 +1,3 @@
-// gcc 12 calls a register of its own AVX-512 intrinsics uninitialised in Eigen's loops (gcc bug 105593).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#include <eigen3/Eigen/Core>
-#pragma GCC diagnostic pop
-#endif
-
 #include "lcp.hpp"
 
 #include <algorithm>

@@ -15,8 +15,8 @@
 namespace stokes {
 
 enum class LcpMethod {
-  automatic,               // the four below, in this order, until one is verified
-  minimum_map_newton,      // active-set Newton on min(z, w): finite, a few steps when B is definite
+  automatic,               // the four below in this order until one has a residual of 1e-13; the best counts
+  minimum_map_newton,      // active-set Newton on min(z, w): a few steps when B is definite
   fischer_newton,          // Newton on sqrt(z^2 + w^2) - z - w with an Armijo line search (Fischer 1992)
   projected_gauss_seidel,  // sweeps, each followed now and then by minimum-map steps; needs B_ii > 0
   lemke                    // complementary pivoting with the lexicographic ratio test
@@ -51,8 +51,8 @@ LcpResult solve_lcp(const Matrix& B, const Vector& b, LcpMethod method = LcpMeth
 // Scaled natural residual  max_i |min(s_i z_i, w_i / s_i)| / beta,  beta = max_i(-b_i / s_i),  with
 // s_i = sqrt(B_ii) as above (not rounded): z and w are measured in the same unit and against the worst
 // violation without forces, not against large irrelevant gaps. It does not change if B, b or both are
-// multiplied by positive numbers, nor if the unknowns are scaled one by one. If all B_ii are equal it
-// is |min(B_ii z, w)|_inf / max(-b); in general |min(B_ii z, w)|_inf is at most
+// multiplied by positive numbers nor, where B_ii > 0, if the unknowns are scaled one by one. If all
+// B_ii are equal it is |min(B_ii z, w)|_inf / max(-b); in general |min(B_ii z, w)|_inf is at most
 // residual * sqrt(max B_ii / min B_ii) * max(-b). If b >= 0, beta is max(|b_i| / s_i, s_i |z_i|).
 // w is summed in doubled precision, so cancellation cannot hide a wrong z. Infinite if B, b or z has a
 // non-finite entry or their sizes differ.

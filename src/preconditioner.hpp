@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include <eigen3/Eigen/LU>
-
 #include "discrete_shape.hpp"
+
+#include <eigen3/Eigen/LU>
 
 namespace stokes {
 

@@ -302,14 +302,13 @@ TEST_CASE("each method solves 200 contacts with independent constraints to a res
   const Vector b = random_vector(random, 200);
   for (const LcpMethod method : methods) {
     const LcpResult result = solve_lcp(B * 1e-8, b * 1e-9, method);
-    INFO(to_string(method) << ": " << result.message);
-    CHECK(result.solved);
-    CHECK(result.method == method);
-    CHECK(result.residual <= 1e-13);
+    CHECK_MESSAGE(result.residual <= 1e-13, to_string(method) << ": " << result.message);
+    CHECK((result.solved && result.method == method));
   }
 }
 
 TEST_CASE("redundant contacts, exact or up to rounding, leave the residual at 1e-13") {
+  int by_newton = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Random random(seed);
     const int m = 40;
@@ -328,10 +327,10 @@ TEST_CASE("redundant contacts, exact or up to rounding, leave the residual at 1e
       for (int i = 0; i < m && choice > 2.0; ++i) b(i) -= B(i, j) * (choice - 2.0);
     }
     const LcpResult result = solve_lcp(B, b);
-    INFO("seed " << seed << ": " << result.message);
-    CHECK(result.solved);
-    CHECK(result.residual <= 1e-13);
+    CHECK_MESSAGE(result.residual <= 1e-13, "seed " << seed << ": " << result.message);
+    by_newton += result.method == LcpMethod::minimum_map_newton;
   }
+  CHECK(by_newton > 45);  // 59, but 16 if the minimum map does not regularise singular active sets
 }
 
 TEST_CASE("the answer scales with B and b, exactly so for powers of two") {
