@@ -91,9 +91,15 @@ sanitize:
 # --- experiments: one process and one file a case -------------------------------------------------------
 TABLE1_SEPARATIONS = 0 1 2 2.25 2.5 2.75 3
 TABLE1_STEPS       = 0.04 0.02 0.01 0.005 0.0025
-TABLE1_CASES       = $(foreach t,$(TABLE1_STEPS),$(foreach d,$(TABLE1_SEPARATIONS),delta$(d)h_dt$(t)))
+TABLE1_CASES       = $(foreach t,$(TABLE1_STEPS),$(foreach d,$(TABLE1_SEPARATIONS),delta$(d)h_dt$(t)) \
+                       $(foreach d,$(filter-out 0 1,$(TABLE1_SEPARATIONS)),delta$(d)h_dt$(t)_stiv delta$(d)h_dt$(t)_stiv32))
 FIG2_CASES         = $(foreach d,0 1 2 2.1 2.5 2.75 3,delta$(d)h)
 FIG3_CASES         = y0.75 y0.755 y0.76
+LOCAL_CASES        = rate2_global rate2_local rate1_global rate1_local
+NCP_CASES          = head_on_full head_on_self shear_2h_full shear_2h_self shear_3h_full shear_3h_self
+ADAPTIVE_CASES     = fixed_dt0.04 adaptive_dt0.16 fixed_dt0.02 adaptive_dt0.08 fixed_dt0.01 adaptive_dt0.04
+VARIANT_CASES      = $(foreach c,global local,$(foreach m,full self,gap_$(c)_$(m) \
+                       $(foreach v,32 128,$(foreach g,whole frozen,stiv$(v)_$(g)_$(c)_$(m)))))
 
 # $(call experiment,name,cases,quick cases): `name` makes all its cases and then its tables.
 define experiment
@@ -108,9 +114,13 @@ $(1)-quick: $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(3))
 reproduce: $(1)
 reproduce-quick: $(1)-quick
 endef
-$(eval $(call experiment,table1_reversibility,$(TABLE1_CASES),$(filter %_dt0.04 %_dt0.02 %_dt0.01,$(TABLE1_CASES))))
+$(eval $(call experiment,table1_reversibility,$(TABLE1_CASES),$(foreach t,0.04 0.02 0.01,$(filter %_dt$(t) %_dt$(t)_stiv %_dt$(t)_stiv32,$(TABLE1_CASES)))))
 $(eval $(call experiment,fig2_shear_separation,$(FIG2_CASES),$(FIG2_CASES)))
 $(eval $(call experiment,fig3_pathlines,$(FIG3_CASES),$(FIG3_CASES)))
+$(eval $(call experiment,local_coupling,$(LOCAL_CASES),$(LOCAL_CASES)))
+$(eval $(call experiment,contact_variants,$(VARIANT_CASES),$(VARIANT_CASES)))
+$(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES)))
+$(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
 
 reproduce: $(BUILD)/verify
 	@$(BUILD)/verify results=$(RESULTS)

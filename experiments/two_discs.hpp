@@ -23,6 +23,8 @@ struct TwoDiscs {
   ContactModel contact = ContactModel::gap;
   Coupling coupling = Coupling::global;
   LcpMatrix lcp_matrix = LcpMatrix::full;
+  int stiv_vertices = 0;             // 0: four for each point
+  StivGradient stiv_gradient = StivGradient::full;
 };
 
 struct TwoDiscRun {
@@ -63,6 +65,8 @@ inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
   options.stepper.contact = parameters.contact;
   options.stepper.coupling = parameters.coupling;
   options.stepper.lcp_matrix = parameters.lcp_matrix;
+  options.stepper.stiv_vertices = parameters.stiv_vertices;
+  options.stepper.stiv_gradient = parameters.stiv_gradient;
   const Shape disc{disc_radius, disc_radius};
 
   TwoDiscRun run;

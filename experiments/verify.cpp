@@ -131,8 +131,10 @@ int run(int argc, char** argv) {
   }
   fs::create_directories(options["results"]);
   write_file_atomically(fs::path(options["results"]) / "verdict.csv", csv);
+  std::map<std::string, int> known;
   for (const Verdict& v : verdicts)
-    if (v.status == "KNOWN") std::printf("KNOWN %s %s: %s\n", v.case_name.c_str(), v.quantity.c_str(), v.note.substr(6).c_str());
+    if (v.status == "KNOWN") ++known[v.experiment + v.note.substr(5)];
+  for (const auto& [note, rows] : known) std::printf("KNOWN, %d rows, %s\n", rows, note.c_str());
   std::printf("verdict: %d PASS, %d KNOWN, %d FAIL, %d MISSING\n", count["PASS"], count["KNOWN"], count["FAIL"], count["MISSING"]);
   return count["FAIL"] > 0 || (count["MISSING"] > 0 && options["missing"] == "fail") ? 1 : 0;
 }

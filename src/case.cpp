@@ -23,12 +23,15 @@ Words<FlowKind> words_of(FlowKind) {
           {"none", FlowKind::none}};
 }
 Words<ContactModel> words_of(ContactModel) {
-  return {{"gap", ContactModel::gap}, {"none", ContactModel::none}};
+  return {{"gap", ContactModel::gap}, {"stiv", ContactModel::stiv}, {"none", ContactModel::none}};
 }
 Words<Coupling> words_of(Coupling) {
   return {{"global", Coupling::global}, {"local", Coupling::local}};
 }
 Words<LcpMatrix> words_of(LcpMatrix) { return {{"full", LcpMatrix::full}, {"self", LcpMatrix::self}}; }
+Words<StivGradient> words_of(StivGradient) {
+  return {{"full", StivGradient::full}, {"frozen", StivGradient::frozen}};
+}
 Words<NearSingular> words_of(NearSingular) { return {{"cauchy", NearSingular::cauchy}}; }
 Words<TimeCounting> words_of(TimeCounting) {
   return {{"accumulated", TimeCounting::accumulated}, {"exact", TimeCounting::exact}};
@@ -156,6 +159,8 @@ const std::vector<Key>& keys() {
       optional("contact", &Case::contact, "model that keeps bodies apart"),
       optional("coupling", &Case::coupling, "between the bodies in a step"),
       optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix"),
+      optional("stiv_vertices", &Case::stiv_vertices, "of each polygon with contact = stiv, at least 8; 0: 4 points_per_body"),
+      optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed"),
       optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
       optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
@@ -242,6 +247,7 @@ void check_case(const Case& c, const GivenKeys& given) {
   }
   limit(c.gmres_tolerance > 0.0 && c.gmres_tolerance < 1.0, "gmres_tolerance",
         "must be greater than 0 and less than 1; try 1e-8.");
+  limit(c.stiv_vertices == 0 || c.stiv_vertices >= 8, "stiv_vertices", "must be at least 8, or 0 for 4 points_per_body.");
   limit(c.output_every >= 1, "output_every", "must be at least 1, which writes every step.");
   if (c.threads) {
     limit(*c.threads >= 1, "threads", "must be at least 1; leave it out for all cores.");

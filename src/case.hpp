@@ -36,6 +36,8 @@ struct Case {
   ContactModel contact = ContactModel::gap;
   Coupling coupling = Coupling::global;
   LcpMatrix lcp_matrix = LcpMatrix::full;
+  int stiv_vertices = 0;                        // 0: 4 points_per_body
+  StivGradient stiv_gradient = StivGradient::full;
   NearSingular near_singular = NearSingular::cauchy;
   double gmres_tolerance = 1e-8;                // relative true residual
   bool adaptive = false;                        // reject and halve time steps

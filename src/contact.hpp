@@ -17,6 +17,7 @@ namespace stokes {
 enum class ContactModel {
   none,  // bodies that overlap end the run
   gap,   // exact gap between the bodies
+  stiv,  // the paper's: space-time interference volumes between polygons, clusters balanced (stiv.hpp, cluster.hpp)
 };
 
 struct ContactConstraint {

@@ -19,6 +19,7 @@ struct Candidate {
   GapGradient force;
   Response column;
   double multiplier = 0.0;
+  double committed = 0.0;  // multipliers of forces that are no longer unknowns
 };
 
 using Identity = std::tuple<int, int, int>;
@@ -46,8 +47,9 @@ std::string name(const ContactConstraint& c) {
 class Iteration {
  public:
   Iteration(const Suspension& start, const Response& contact_free, double dt, const ConstraintFunction& constraints,
-            const ContactMobility& mobility)
-      : start_(start), free_(contact_free), dt_(dt), constraints_(constraints), mobility_(mobility) {}
+            const ContactMobility& mobility, const BalanceFunction& balance)
+      : start_(start), free_(contact_free), dt_(dt), constraints_(constraints), mobility_(mobility), balance_(balance),
+        base_(contact_free), base_wrenches_(start.size()) {}
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
   void update() {
@@ -64,7 +66,7 @@ class Iteration {
       if (place != candidates_.end() && identity(place->constraint) == identity(found))
         place->constraint = found;
       else
-        candidates_.insert(place, {found, {}, {}, 0.0});
+        candidates_.insert(place, {found, {}, {}, 0.0, 0.0});
     }
   }
 
@@ -84,7 +86,14 @@ class Iteration {
     return missed / c.constraint.tolerance;
   }
 
-  // One LCP for the total multipliers; its failure, if any.
+  // From here on the present forces stay, and the unknowns are what is added to them.
+  void commit() {
+    base_ = motion_;
+    base_wrenches_ = wrenches_;
+    for (Candidate& c : candidates_) c.committed += c.multiplier, c.multiplier = 0.0;
+  }
+
+  // One LCP for the multipliers; its failure, if any.
   std::string solve() {
     const Eigen::Index m = static_cast<Eigen::Index>(candidates_.size());
     Matrix B(m, m);
@@ -116,22 +125,14 @@ class Iteration {
   }
 
   void finish(NcpResult& result) {
-    result.wrenches = wrenches();
+    result.wrenches = std::move(wrenches_);
     for (const Candidate& c : candidates_)
-      if (c.multiplier > 0.0) result.contacts.push_back({c.constraint, c.multiplier});
+      if (c.multiplier + c.committed > 0.0) result.contacts.push_back({c.constraint, c.multiplier + c.committed});
     result.motion = std::move(motion_);
     result.poses = std::move(poses_);
   }
 
  private:
-  // Contact force and torque on every body.
-  std::vector<Wrench> wrenches() const {
-    std::vector<Wrench> total(start_.size());
-    for (const Candidate& c : candidates_)
-      if (c.multiplier > 0.0) add_wrench(total, c.constraint, c.force, c.multiplier);
-    return total;
-  }
-
   void add_motion(const Response& response, double factor) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       motion_.velocity[i].velocity += factor * response.velocity[i].velocity;
@@ -140,15 +141,39 @@ class Iteration {
     motion_.density += factor * response.density;
   }
 
+  // Balances the wrenches; true if that changes them by more than round-off.
+  bool balance_changes() {
+    if (!balance_) return false;
+    std::vector<std::pair<int, int>> pairs;
+    for (const Candidate& c : candidates_)
+      if (c.multiplier + c.committed > 0.0) pairs.push_back({c.constraint.a, c.constraint.b});
+    std::vector<Wrench> balanced = wrenches_;
+    balance_(pairs, balanced);
+    double scale = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < balanced.size(); ++i) {
+      scale = std::max(scale, std::abs(wrenches_[i].force));
+      change = std::max(change, std::abs(balanced[i].force - wrenches_[i].force));
+    }
+    if (change <= 1e-12 * scale) return false;
+    wrenches_ = std::move(balanced);
+    return true;
+  }
+
   void move() {
-    motion_ = free_;
+    wrenches_ = base_wrenches_;
     bool forced = false;
     for (const Candidate& c : candidates_) {
-      if (!(c.multiplier > 0.0)) continue;
-      forced = true;
-      if (!mobility_.response) add_motion(c.column, c.multiplier);
+      forced = forced || c.multiplier + c.committed > 0.0;
+      if (c.multiplier > 0.0) add_wrench(wrenches_, c.constraint, c.force, c.multiplier);
     }
-    if (forced && mobility_.response) add_motion(mobility_.response(wrenches()), 1.0);
+    if (forced && (balance_changes() || mobility_.response)) {
+      motion_ = free_;
+      add_motion((mobility_.response ? mobility_.response : mobility_.column)(wrenches_), 1.0);
+    } else {
+      motion_ = base_;
+      for (const Candidate& c : candidates_)
+        if (c.multiplier > 0.0) add_motion(c.column, c.multiplier);
+    }
     poses_.clear();
     for (std::size_t i = 0; i < start_.size(); ++i)
       poses_.push_back(advance(start_[i].pose, motion_.velocity[i], dt_));
@@ -159,8 +184,12 @@ class Iteration {
   double dt_;
   const ConstraintFunction& constraints_;
   const ContactMobility& mobility_;
+  const BalanceFunction& balance_;
   std::vector<Candidate> candidates_;  // sorted by pair and region
+  Response base_;                      // motion with the committed forces
+  std::vector<Wrench> base_wrenches_;  // and these
   Response motion_;
+  std::vector<Wrench> wrenches_;  // contact force and torque on every body
   std::vector<Pose> poses_;
 };
 
@@ -168,9 +197,9 @@ class Iteration {
 
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
                            const ConstraintFunction& constraints, const ContactMobility& mobility,
-                           const NcpOptions& options) {
+                           const NcpOptions& options, const BalanceFunction& balance) {
   NcpResult result;
-  Iteration iteration(start, contact_free, dt, constraints, mobility);
+  Iteration iteration(start, contact_free, dt, constraints, mobility, balance);
   double best = std::numeric_limits<double>::infinity();
   int without_progress = 0;
   iteration.update();
@@ -184,8 +213,10 @@ NcpResult resolve_contacts(const Suspension& start, const Response& contact_free
     else if (options.demand_progress && without_progress >= 2)
       result.failure = concat("contact resolution stopped converging after ", result.iterations,
                               " iterations; worst: ", name(worst->constraint));
-    else
+    else {
+      if (result.iterations >= options.increments_after) iteration.commit();
       result.failure = iteration.solve();
+    }
     if (!result.failure.empty()) return result;
     ++result.iterations;
     iteration.update();

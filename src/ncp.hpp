@@ -7,6 +7,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,9 +27,15 @@ struct ActiveContact {
   double multiplier;             // > 0, a force
 };
 
+// Changes the contact wrenches of all bodies, given the pairs in contact (balance_clusters).
+using BalanceFunction = std::function<void(const std::vector<std::pair<int, int>>&, std::vector<Wrench>&)>;
+
 struct NcpOptions {
   int max_iterations = 50;
   bool demand_progress = false;  // give up when the worst violation is not halved in two iterations
+  // From this iteration on keep the forces found and solve for non-negative additions to them: ends the cycles
+  // of a value that jumps. For constraints that count as met once they are open (stiv).
+  int increments_after = std::numeric_limits<int>::max();
 };
 
 struct NcpResult {
@@ -53,9 +60,11 @@ struct ContactMobility {
 };
 
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with
-// a positive multiplier is met to its tolerance. Failure is reported, with what was reached, not thrown.
+// a positive multiplier is met to its tolerance; a contact that is no longer found counts as open and met.
+// `balance`, if any, is applied to the wrenches of every iterate, at the cost of a solve where it changes
+// them by more than round-off. Failure is reported, with what was reached, not thrown.
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
                            const ConstraintFunction& constraints, const ContactMobility& mobility,
-                           const NcpOptions& options);
+                           const NcpOptions& options, const BalanceFunction& balance = {});
 
 }  // namespace stokes

@@ -26,6 +26,8 @@ SimulationOptions options_of(const Case& c, double separation) {
   options.stepper.separation = separation;
   options.stepper.coupling = c.coupling;
   options.stepper.lcp_matrix = c.lcp_matrix;
+  options.stepper.stiv_vertices = c.stiv_vertices;
+  options.stepper.stiv_gradient = c.stiv_gradient;
   options.time_step = c.time_step;
   options.end_time = c.end_time;
   options.reverse_at = c.reverse_at;

@@ -107,15 +107,16 @@ RunSummary simulate(const Suspension& initial, const SimulationOptions& options,
     try {
       double dt = clock.step(options.adaptive ? stepper.geometric_step_limit(clock.driving()) : 0.0);
       outcome = stepper.attempt(dt, clock.driving(), ncp);
-      while (!outcome.accepted) {
-        if (!clock.reject(dt)) return finish(outcome.failure + (options.adaptive ? "; the step cannot be halved further" : "; adaptive = yes would halve the step"));
+      while (!outcome.accepted && clock.reject(dt)) {
         ++summary.rejected;
         dt = clock.step(dt);
         outcome = stepper.attempt(dt, clock.driving(), ncp);
       }
     } catch (const NumericalError& error) {
-      return finish(error.what());
+      outcome.failure = error.what();
     }
+    if (!outcome.accepted)
+      return finish(outcome.failure + (options.adaptive ? "; the step cannot be halved further" : "; adaptive = yes would halve the step"));
     observe({summary.steps, clock.time(), start, closest.gap, &outcome});
     clock.accept(outcome.dt, outcome.ncp_iterations);
     ++summary.steps;

@@ -4,12 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "cluster.hpp"
 #include "completion.hpp"
 #include "neighbours.hpp"
 
 namespace stokes {
 
 namespace {
+
+// Newton's method on interference volumes takes 3 to 6 iterations where it converges; it cycles where sliding
+// carries vertices across corners.
+constexpr int stiv_increments_after = 8;
 
 bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {
   return std::equal(u.begin(), u.end(), v.begin(), v.end(),
@@ -46,32 +51,51 @@ Stepper::Configuration& Stepper::configuration(double driving) {
 Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches) {
   for (const auto& [known, response] : now.columns)
     if (same(known, wrenches)) return response;
-  StokesSolution solution = options_.coupling == Coupling::local ? now.system.sweep({}, wrenches, {})
-                                                                 : now.system.solve({}, wrenches);
+  StokesSolution solution = now.system.solve({}, wrenches);
   now.gmres_iterations += solution.iterations;
   now.columns.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
   return now.columns.back().second;
 }
 
-Response Stepper::respond_alone(const std::vector<Wrench>& wrenches) const {
-  Response response;
+// No body feels the forces on another; the densities answer a rigid motion with nothing.
+Response Stepper::respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const {
+  Response response{{}, ComplexVector::Zero(now.system.node_count())};
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     response.velocity.push_back(completion_trace(bodies_[i].shape, bodies_[i].pose, wrenches[i]));
   return response;
 }
 
+NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp) {
+  const MobilityFunction full = [&](const std::vector<Wrench>& w) { return respond(now, w); };
+  const MobilityFunction alone = [&](const std::vector<Wrench>& w) { return respond_alone(now, w); };
+  ContactMobility mobility{full, {}};
+  if (options_.coupling == Coupling::local)
+    mobility = {alone, {}};
+  else if (options_.lcp_matrix == LcpMatrix::self)
+    mobility = {alone, full};
+  const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
+    NcpOptions options = ncp;
+    if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;
+    return resolve_contacts(bodies_, now.contact_free, dt, constraints, mobility, options, balance);
+  };
+  switch (options_.contact) {
+    case ContactModel::gap: {
+      const GapCollector collector(bodies_, options_.separation);
+      return solve([&](const auto& trial, const auto& tracked) { return collector.collect(trial, tracked); }, {});
+    }
+    case ContactModel::stiv: {
+      const int vertices = options_.stiv_vertices > 0 ? options_.stiv_vertices : 4 * options_.points_per_body;
+      const StivCollector collector(bodies_, options_.separation, {vertices, options_.stiv_gradient});
+      return solve([&](const auto& trial, const auto&) { return collector.collect(trial); }, balance_clusters);
+    }
+    case ContactModel::none: break;
+  }
+  return solve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
+}
+
 StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   Configuration& now = configuration(driving);
-  const GapCollector collector(bodies_, options_.separation);
-  const ConstraintFunction constraints = [&](const auto& trial, const auto& tracked) {
-    return options_.contact == ContactModel::none ? std::vector<ContactConstraint>{}
-                                                  : collector.collect(trial, tracked);
-  };
-  const MobilityFunction full = [&](const std::vector<Wrench>& w) { return respond(now, w); };
-  const MobilityFunction alone = [&](const std::vector<Wrench>& w) { return respond_alone(w); };
-  const ContactMobility mobility =
-      options_.lcp_matrix == LcpMatrix::full ? ContactMobility{full, {}} : ContactMobility{alone, full};
-  NcpResult result = resolve_contacts(bodies_, now.contact_free, dt, constraints, mobility, ncp);
+  NcpResult result = resolve(now, dt, ncp);
   now.ncp_iterations += result.iterations;
 
   StepOutcome outcome;

@@ -11,19 +11,22 @@
 #include "contact.hpp"
 #include "flow.hpp"
 #include "ncp.hpp"
+#include "stiv.hpp"
 #include "stokes_system.hpp"
 
 namespace stokes {
 
 enum class Coupling {
   global,  // the complete Stokes problem at every configuration
-  local,   // each body's own block; the others' densities are those of the step before (the first: global)
+  local,   // each body's own block; the others' densities are those of the step before (the first: global),
+           // and a contact force moves only the body it acts on
 };
 
 // The mobility in the matrix of the linear complementarity problems.
 enum class LcpMatrix {
   full,  // the one that moves the bodies
-  self,  // each body as if it were alone; every iterate is then moved with the full mobility
+  self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
+         // Coupling::local
 };
 
 struct StepperOptions {
@@ -34,6 +37,8 @@ struct StepperOptions {
   double separation = 0.0;  // length
   Coupling coupling = Coupling::global;
   LcpMatrix lcp_matrix = LcpMatrix::full;
+  int stiv_vertices = 0;    // of the polygons of ContactModel::stiv; 0: 4 points_per_body
+  StivGradient stiv_gradient = StivGradient::full;
 };
 
 // An attempted step. Velocities and contact forces are those that move the bodies from the start of the
@@ -80,7 +85,8 @@ class Stepper {
   };
   Configuration& configuration(double driving);
   Response respond(Configuration& now, const std::vector<Wrench>& wrenches);
-  Response respond_alone(const std::vector<Wrench>& wrenches) const;
+  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
+  Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
 
   Suspension bodies_;
   StepperOptions options_;
