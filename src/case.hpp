@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bodies.hpp"
 #include "csv.hpp"
 #include "simulation.hpp"
 
@@ -52,10 +53,6 @@ struct Case {
 // Reads and checks a case file. Each override `key=value` counts as if written in the file and replaces
 // the value that is written there, right or wrong.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
-
-// Reads and checks the bodies of a suspension in unbounded flow: no fixed bodies, zero net force (to
-// 1e-12 of the sum of the magnitudes). Overlaps are not looked for here.
-Suspension read_bodies(const std::filesystem::path& path);
 
 // The smallest allowed distance between two bodies, in length units.
 double separation_length(const Case& parameters, const Suspension& bodies);

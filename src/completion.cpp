@@ -10,12 +10,10 @@ Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& 
   const double A = 0.5 * (shape.a + shape.b), B = 0.5 * (shape.a - shape.b);
   const Complex axis = pose.axis();
   const Complex z = std::conj(axis) * (x - pose.centre);
-  // The product of two principal roots has its cut on the segment between the foci, inside the body
-  // (B >= 0), or between the conjugate foci on the second axis when b > a.
-  const double focus_squared = 4.0 * A * std::abs(B);
-  const Complex focus = B >= 0.0 ? Complex(std::sqrt(focus_squared), 0.0) : Complex(0.0, std::sqrt(focus_squared));
-  const Complex turn = B >= 0.0 ? Complex(1.0, 0.0) : Complex(0.0, -1.0);  // brings the foci to the real axis
-  const Complex s = std::sqrt(turn * (z - focus)) * std::sqrt(turn * (z + focus)) / turn;
+  // Of the two roots, the one with |w| >= 1 has Re(s/z) > 0 everywhere outside the body.
+  const Complex focus = 2.0 * std::sqrt(Complex(A * B, 0.0));
+  Complex s = std::sqrt((z - focus) * (z + focus));
+  if (dot(s, z) < 0.0) s = -s;
   const Complex w = (z + s) / (2.0 * A);
 
   const double norm = A * A + B * B;

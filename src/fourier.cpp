@@ -9,13 +9,21 @@ namespace stokes {
 
 namespace {
 
+struct PlanCache {
+  std::mutex mutex;
+  std::map<std::pair<int, int>, fftw_plan> plans;
+
+  ~PlanCache() {
+    for (const auto& entry : plans) fftw_destroy_plan(entry.second);
+  }
+};
+
 // One plan per length and direction. FFTW_ESTIMATE, because measured plans differ from run to run and
 // with them the last bits of every result. Planning is not thread-safe, executing is.
 fftw_plan plan_of_length(int n, int direction) {
-  static std::mutex mutex;
-  static std::map<std::pair<int, int>, fftw_plan> plans;
-  const std::lock_guard lock(mutex);
-  fftw_plan& plan = plans[{n, direction}];
+  static PlanCache cache;
+  const std::lock_guard lock(cache.mutex);
+  fftw_plan& plan = cache.plans[{n, direction}];
   if (!plan) {
     ComplexVector in(n), out(n);
     plan = fftw_plan_dft_1d(n, reinterpret_cast<fftw_complex*>(in.data()),

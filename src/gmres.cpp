@@ -113,7 +113,7 @@ GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner,
     const double previous = result.residual;
     result.residual = residual.norm() / scale;
     // A further cycle helps only while cycles still reduce the residual; round-off sets the floor.
-    if (!(result.residual < 0.5 * previous)) break;
+    if (!(result.residual < 0.99 * previous)) break;
   }
   result.converged = result.residual <= options.tolerance;
   return result;

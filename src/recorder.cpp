@@ -1,17 +1,20 @@
 #include "recorder.hpp"
 
+#include <unistd.h>
+
 #include <cmath>
 
 namespace stokes {
 
 namespace {
 
-const std::filesystem::path& existing_folder(const std::filesystem::path& folder) {
+constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.csv";
+
+const std::filesystem::path& made(const std::filesystem::path& folder) {
+  std::string why = why_not_writable(folder);
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder))
-    throw InputError(concat("the output folder ", quote(folder.string()), " cannot be made",
-                            error ? concat(" (", error.message(), ")") : std::string(), "; choose another one: output = FOLDER"));
+  if (why.empty() && (std::filesystem::create_directories(folder, error), error)) why = error.message();
+  if (!why.empty()) throw InputError(concat("the output folder ", quote(folder.string()), " cannot be used: ", why));
   return folder;
 }
 
@@ -27,11 +30,27 @@ double contact_count(const StepOutcome& step) {
 
 }  // namespace
 
+std::string why_not_writable(const std::filesystem::path& folder) {
+  std::filesystem::path existing = std::filesystem::absolute(folder);
+  while (!std::filesystem::exists(std::filesystem::symlink_status(existing)) && existing.has_relative_path())
+    existing = existing.parent_path();
+  const auto because = [](const std::filesystem::path& place, const char* why) { return concat(quote(place.string()), " ", why); };
+  if (!std::filesystem::is_directory(existing)) return because(existing, "is not a folder");
+  if (access(existing.c_str(), W_OK | X_OK) != 0) return because(existing, "is not writable");
+  for (const char* name : {trajectory_name, steps_name}) {
+    const std::filesystem::path file = folder / name;
+    if (!std::filesystem::exists(file)) continue;
+    if (!std::filesystem::is_regular_file(file)) return because(file, "is in the way of a file to be written");
+    if (access(file.c_str(), W_OK) != 0) return because(file, "is not writable");
+  }
+  return {};
+}
+
 Recorder::Recorder(const std::filesystem::path& folder, int output_every)
     : output_every_(output_every),
-      trajectory_(existing_folder(folder) / "trajectory.csv",
+      trajectory_(made(folder) / trajectory_name,
                   {"step", "time", "body", "x", "y", "theta", "ux", "uy", "omega", "fx", "fy", "torque"}),
-      steps_(folder / "steps.csv",
+      steps_(folder / steps_name,
              {"step", "time", "dt", "gmres_iterations", "ncp_iterations", "contacts", "min_gap", "density_tail"}) {}
 
 void Recorder::record(const StepRecord& record) {

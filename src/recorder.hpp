@@ -2,12 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "csv.hpp"
 #include "simulation.hpp"
 
 namespace stokes {
+
+// Why the files of a run cannot be written to `folder`, or nothing; nothing is made or changed. The nearest
+// existing folder above must be writable, and what stands in the place of a file must be a writable file.
+std::string why_not_writable(const std::filesystem::path& folder);
 
 // trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque
 //   The configuration at the start of a step, the velocities and the contact forces and torques that moved

@@ -25,7 +25,7 @@ double Shape::perimeter() const {
     y = std::sqrt(x * y);
     x = mean;
   }
-  return 2.0 * pi * (sum - factor * (x * x - y * y)) / x;
+  return 4.0 * pi * (sum - factor * (x * x - y * y)) / (x + y);
 }
 
 Curve Shape::curve(int points) const {

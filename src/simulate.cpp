@@ -36,13 +36,8 @@ SimulationOptions options_of(const Case& c, double separation) {
   return options;
 }
 
-// Refuses overlapping bodies; warns of a gap below the minimum separation, which the first step restores.
-void check_gaps(const Case& c, const Suspension& bodies, double separation, Progress& progress) {
+void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separation, Progress& progress) {
   const ClosestPair closest = smallest_gap(bodies);
-  if (!(closest.gap > 0.0))
-    throw InputError(concat(c.bodies_path().string(), ": bodies ", closest.a, " and ", closest.b,
-                            closest.gap < 0.0 ? concat(" overlap by ", -closest.gap) : std::string(" touch"),
-                            " (counted from 0, the deepest overlap); move them apart"));
   if (c.contact != ContactModel::none && closest.gap < separation)
     progress.message(concat("warning: bodies ", closest.a, " and ", closest.b, " start ", closest.gap,
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
@@ -54,7 +49,7 @@ int run(const std::vector<std::string>& arguments) {
   const double separation = separation_length(c, bodies);
   if (c.threads) set_thread_count(*c.threads);
   Progress progress(c.end_time);
-  check_gaps(c, bodies, separation, progress);
+  warn_of_small_gaps(c, bodies, separation, progress);
 
   Recorder recorder(c.output, c.output_every);
   bool warned = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "neighbours.hpp"
 #include "text.hpp"
@@ -120,7 +121,12 @@ RunSummary simulate(const Suspension& initial, const SimulationOptions& options,
     observe({summary.steps, clock.time(), start, closest.gap, &outcome});
     clock.accept(outcome.dt, outcome.ncp_iterations);
     ++summary.steps;
-    closest = smallest_gap(stepper.bodies());
+    try {
+      closest = smallest_gap(stepper.bodies());
+    } catch (const NumericalError& error) {  // positions beyond all bounds
+      closest.gap = std::numeric_limits<double>::quiet_NaN();
+      return finish(error.what());
+    }
     if (closest.gap < 0.0)
       return finish(concat("bodies ", closest.a, " and ", closest.b, " overlap by ", -closest.gap,
                            "; try a smaller time_step, or contact = gap"));

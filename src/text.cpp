@@ -126,7 +126,7 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
     const std::string known = lower_case(name);
     long score = 1000L * edit_distance(given, known);
     const bool part = known.find(given) != std::string::npos || given.find(known) != std::string::npos;
-    if (part && given.size() >= 3) {
+    if (part && given.size() >= 3 && known.size() >= 3) {
       const long difference = static_cast<long>(given.size()) - static_cast<long>(known.size());
       score = std::min(score, 1500L + std::abs(difference));
     }
@@ -158,6 +158,10 @@ std::string read_text_file(const std::filesystem::path& path, std::string_view w
         concat(name, ": cannot read ", what, ": ", std::generic_category().message(errno), "."));
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   return text;
+}
+
+std::string padded(std::string_view word, std::size_t width) {
+  return std::string(word) + std::string(word.size() < width ? width - word.size() : 1, ' ');
 }
 
 }  // namespace stokes

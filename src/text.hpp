@@ -37,6 +37,9 @@ std::string quote(std::string_view text);
 // The words with `separator` between them.
 std::string join(const std::vector<std::string>& words, std::string_view separator);
 
+// The word followed by spaces up to `width`, at least one.
+std::string padded(std::string_view word, std::size_t width);
+
 // Number of insertions, deletions, substitutions and swaps of neighbours between two words.
 int edit_distance(std::string_view from, std::string_view to);
 // The name that `word` was most likely meant to be: smallest edit distance without regard to case, a

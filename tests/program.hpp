@@ -65,8 +65,14 @@ struct Results {
   }
 };
 
+// A folder with a case and its bodies.
 class Workspace {
  public:
+  Workspace(std::string_view case_file, std::string_view bodies) {
+    write("case.txt", case_file);
+    write("bodies.csv", bodies);
+  }
+
   void write(const std::filesystem::path& name, std::string_view text) const {
     std::ofstream(path() / name, std::ios::binary) << text;
   }
@@ -77,9 +83,10 @@ class Workspace {
     const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
     const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
     std::string command = concat("cd ", shell_word(path().string()), " && ", shell_word(program()));
-    for (const std::string& argument : arguments) command += " " + shell_word(argument);
+    for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
     const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content_of(out), content_of(err)};
+    const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return {exit_status, content_of(out), content_of(err)};
   }
 
   Results results(const std::filesystem::path& output = "out") const {
@@ -109,11 +116,11 @@ class Workspace {
   TemporaryFolder folder_;
 };
 
-// The required keys; `settings` holds further lines or arguments that replace these.
+// A case of bodies.csv that writes to the folder out; `settings` are further lines.
 inline std::string case_text(const std::string& flow, int points, double time_step, double end_time,
                              const std::string& settings = "") {
-  return concat("bodies = bodies.csv\nflow = ", flow, "\npoints_per_body = ", points, "\ntime_step = ", time_step,
-                "\nend_time = ", end_time, "\noutput = out\n", settings);
+  return concat("bodies = bodies.csv\nflow = ", flow, "\npoints_per_body = ", points,
+                "\ntime_step = ", time_step, "\nend_time = ", end_time, "\noutput = out\n", settings);
 }
 
 }  // namespace stokes

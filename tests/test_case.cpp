@@ -284,7 +284,7 @@ TEST_CASE("the help names every key with its default, and every column") {
   defaults.erase(defaults.begin(), defaults.begin() + 5);  // the required ones that are described
   for (const auto& [key, value] : defaults) CHECK_CONTAINS(line(key), concat(" ", value, " "));
   CHECK_CONTAINS(line("threads"), " all ");
-  CHECK_CONTAINS(line("flow"), "(shear | extension | none)");
+  CHECK_CONTAINS(line("flow"), "(shear | extension | taylor_green | none)");
   for (const char* column : {"force_x", "force_y", "torque", "fixed"})
     CHECK_CONTAINS(line(column), " 0 ");
 }

@@ -1,0 +1,140 @@
+#include "bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "csv.hpp"
+#include "neighbours.hpp"
+#include "text.hpp"
+
+namespace stokes {
+
+namespace {
+
+constexpr double largest_length = 1e100;  // squares and their products stay finite
+
+template <class... Parts>
+[[noreturn]] void refuse(const std::string& where, const Parts&... parts) {
+  throw InputError(concat(where, ": ", parts...));
+}
+
+struct Column {
+  const char* name;
+  bool is_required;
+  const char* help;
+};
+
+constexpr Column columns[] = {
+    {"a", true, "semi-axis along theta, length"},
+    {"b", true, "semi-axis across it, length"},
+    {"x", true, "centre, length"},
+    {"y", true, "centre, length"},
+    {"theta", true, "angle of the semi-axis a, radians, counter-clockwise"},
+    {"force_x", false, "external force; the sum over the bodies is 0 in unbounded flow"},
+    {"force_y", false, "external force"},
+    {"torque", false, "external torque about the centre"},
+    {"fixed", false, "0 or 1; 0 in unbounded flow"},
+};
+
+void check_columns(const Table& table) {
+  std::vector<std::string> known, missing;
+  for (const Column& column : columns) {
+    known.push_back(column.name);
+    if (column.is_required && !table.has_column(column.name)) missing.push_back(column.name);
+  }
+  for (const std::string& name : table.header) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    refuse(table.where_header(), "unknown column ", quote(name), "; did you mean ",
+         quote(nearest_name(name, known)), "? The columns are ", join(known, ","), ".");
+  }
+  if (!missing.empty()) {
+    refuse(table.where_header(), "the header lacks the required column", missing.size() > 1 ? "s " : " ",
+         join(missing, ", "), "; it can be a,b,x,y,theta.");
+  }
+}
+
+Body read_body(const Table& table, int row) {
+  const auto value = [&](const char* name) {
+    return table.has_column(name) ? table.finite_number(row, table.column(name)) : 0.0;
+  };
+  for (const char* axis : {"a", "b"}) {
+    if (value(axis) > 0.0) continue;
+    refuse(table.where(row), "the semi-axis ", axis, " = ", value(axis), " of body ", row,
+         " must be greater than 0; give the half-length of the body.");
+  }
+  for (const char* name : {"a", "b", "x", "y"})
+    if (std::abs(value(name)) > largest_length)
+      refuse(table.where(row), name, " = ", value(name), " of body ", row, " is above ", largest_length,
+             "; choose a larger unit of length.");
+  const double fixed = value("fixed");
+  if (fixed != 0.0 && fixed != 1.0) {
+    refuse(table.where(row), "fixed = ", fixed, " of body ", row,
+         " must be 0 (free) or 1 (held in place).");
+  }
+  if (fixed == 1.0) {
+    refuse(table.where(row), "body ", row, " is fixed, but in unbounded flow only free ",
+         "bodies are possible: a held body exerts a net force, for which no bounded flow ",
+         "exists in two dimensions; set fixed to 0.");
+  }
+  return {Shape{value("a"), value("b")},
+          Pose{{value("x"), value("y")}, value("theta")},
+          {value("force_x"), value("force_y")},
+          value("torque")};
+}
+
+// A net force in unbounded two-dimensional Stokes flow has no bounded solution.
+void check_net_force(const Table& table, const Suspension& bodies) {
+  double largest = 0.0;  // scales the sums, which could overflow otherwise
+  for (const Body& body : bodies)
+    largest = std::max({largest, std::abs(body.force.real()), std::abs(body.force.imag())});
+  if (largest == 0.0) return;
+  Complex net{0.0, 0.0};
+  double magnitudes = 0.0;
+  for (const Body& body : bodies) {
+    const Complex scaled(body.force.real() / largest, body.force.imag() / largest);
+    net += scaled;
+    magnitudes += std::abs(scaled);
+  }
+  constexpr double tolerance = 1e-12;
+  if (std::abs(net) <= tolerance * magnitudes) return;
+  refuse(table.where_header(), "the external forces sum to (", net.real() * largest, ", ",
+       net.imag() * largest, "), ", std::abs(net) / magnitudes,
+       " of the sum of their magnitudes against at most ", tolerance,
+       " in unbounded flow, where a net force has no bounded flow; subtract the mean force "
+       "from every body.");
+}
+
+void check_overlaps(const Table& table, const Suspension& bodies) {
+  const ClosestPair closest = smallest_gap(bodies);
+  if (closest.gap > 0.0) return;
+  refuse(table.where(closest.b), "bodies ", closest.a, " and ", closest.b, " (counted from 0) ",
+         closest.gap < 0.0 ? concat("overlap by ", -closest.gap) : std::string("touch"),
+         ", the smallest gap of all; move them apart.");
+}
+
+}  // namespace
+
+Suspension read_bodies(const std::filesystem::path& path) {
+  const Table table = parse_csv(read_text_file(path, "the bodies' file"), path.string());
+  check_columns(table);
+  if (table.rows.empty())
+    refuse(table.where_header(), "there are no bodies; add a row below the header for each.");
+  Suspension bodies;
+  for (int row = 0; row < static_cast<int>(table.rows.size()); ++row)
+    bodies.push_back(read_body(table, row));
+  check_net_force(table, bodies);
+  check_overlaps(table, bodies);
+  return bodies;
+}
+
+std::string bodies_help() {
+  std::string text =
+      "The bodies' file is a CSV: a header line, a row for each body, columns in any order.\n\n";
+  for (const Column& column : columns) {
+    const auto needed = padded(column.is_required ? "required" : "0", 10);
+    text += concat("  ", padded(column.name, 23), needed, column.help, "\n");
+  }
+  return text;
+}
+
+}  // namespace stokes

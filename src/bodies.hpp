@@ -1,0 +1,18 @@
+// The CSV of a suspension's bodies: the columns a,b,x,y,theta in any order, optional force_x,force_y,torque,fixed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "suspension.hpp"
+
+namespace stokes {
+
+// Reads and checks the bodies of a suspension in unbounded flow: no fixed bodies, zero net force (relative
+// to the sum of the magnitudes, 1e-12), no overlap. InputError with file and line for anything else.
+Suspension read_bodies(const std::filesystem::path& path);
+
+// What a user can write there.
+std::string bodies_help();
+
+}  // namespace stokes

@@ -1,0 +1,297 @@
+// Close evaluation by interpolation against closed forms and against the Cauchy scheme.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "fourier.hpp"
+#include "interpolation.hpp"
+#include "random_suspension.hpp"
+
+using namespace stokes;
+
+namespace {
+
+// eta = Sum_m c_m e^{i m alpha}, m = -2, ..., 2, on an ellipse.
+using Modes = std::array<Complex, 5>;
+
+// (cos 2 alpha + i sin alpha) / sqrt(2), whose largest modulus is 1.
+constexpr double amplitude = 0.25 * std::numbers::sqrt2;
+const Modes two_waves{amplitude, -amplitude, 0.0, amplitude, amplitude};
+
+ComplexVector density(const Modes& modes, int points) {
+  ComplexVector eta = ComplexVector::Zero(points);
+  for (int k = 0; k < points; ++k)
+    for (int m = -2; m <= 2; ++m) eta[k] += modes[m + 2] * std::polar(1.0, m * 2.0 * pi * k / points);
+  return eta;
+}
+
+// The double layer outside a body with boundary A w + B/w, |w| = 1, at the image of w. A Cauchy integral
+// of a function on the ellipse that continues analytically to the outside and decays there is minus that
+// function, and one of a polynomial is 0; w^m + (B/(A w))^m is a polynomial in z, and on the ellipse
+// conj(zeta) = A/w + B w = (B/A) z + (A - B^2/A)/w.
+Complex outside_ellipse(const Modes& modes, double A, double B, Complex w) {
+  const Complex z = A * w + B / w, slope = A - B / (w * w), conjugate = A / w + B * w;
+  // conj(zeta) d(w^-m)/dz
+  const auto decaying = [&](double m) { return -m * conjugate * std::pow(w, -m - 1.0) / slope; };
+  Complex phi = 0.0, dphi = 0.0, psi = 0.0;
+  for (int m : {1, 2}) {
+    const double ratio = std::pow(B / A, m);
+    const Complex power = std::pow(w, -m), derivative = static_cast<double>(-m) * power / (w * slope);
+    const Complex plus = modes[2 + m], minus = modes[2 - m];
+    const Complex polynomial = (m == 1 ? -1.0 / (A * w) : -2.0 * B / (A * A * w * w)) * (A - B * B / A);
+    phi += 0.5 * (plus * ratio - minus) * power;
+    dphi += 0.5 * (plus * ratio - minus) * derivative;
+    psi -= 0.5 * (std::conj(minus) * ratio - std::conj(plus)) * power;  // conj(eta) swaps the modes
+    psi -= 0.5 * (plus * (polynomial + ratio * decaying(m)) - minus * decaying(m));
+  }
+  return phi - z * std::conj(dphi) - std::conj(psi);
+}
+
+struct NearTargets {
+  std::vector<Complex> z, w;  // positions, and w(z) for the closed form
+};
+
+// Random points outside the ellipse, closer to it than `width`.
+NearTargets near_targets(const Shape& shape, double width, int count) {
+  std::mt19937_64 generator(11);
+  const double A = 0.5 * (shape.a + shape.b), B = 0.5 * (shape.a - shape.b);
+  NearTargets targets;
+  for (int k = 0; k < count; ++k) {
+    const double alpha = 2.0 * pi * uniform(generator);
+    const double distance = width * uniform(generator);
+    const Complex x(shape.a * std::cos(alpha), shape.b * std::sin(alpha));
+    const Complex normal(shape.b * std::cos(alpha), shape.a * std::sin(alpha));
+    const Complex z = x + distance * normal / std::abs(normal);
+    const double focus = 2.0 * std::sqrt(A * B);
+    targets.z.push_back(z);
+    targets.w.push_back((z + std::sqrt(z - focus) * std::sqrt(z + focus)) / (2.0 * A));
+  }
+  return targets;
+}
+
+ComplexVector velocity(const VelocityRows& rows, const ComplexVector& eta) {
+  return rows.direct * eta + rows.conjugate * eta.conjugate();
+}
+
+struct Errors {
+  double root_mean_square, largest, largest_cauchy;
+};
+
+// With |eta| <= 1, at 400 random targets closer than h.
+Errors near_errors(const Shape& shape, int points) {
+  const Curve curve = shape.curve(points);
+  const NearTargets targets = near_targets(shape, curve.length() / points, 400);
+  const int count = static_cast<int>(targets.z.size());
+  ComplexVector exact(count);
+  for (int i = 0; i < count; ++i)
+    exact[i] = outside_ellipse(two_waves, 0.5 * (shape.a + shape.b), 0.5 * (shape.a - shape.b), targets.w[i]);
+  const ComplexVector eta = density(two_waves, points);
+  const InterpolationEvaluation interpolation(curve, Side::exterior);
+  const ComplexVector error = velocity(interpolation.velocity_rows(targets.z), eta) - exact;
+  const CloseEvaluation close(curve, Side::exterior, 3);
+  const ComplexVector cauchy = velocity(close.velocity_rows(targets.z), eta) - exact;
+  return {error.norm() / std::sqrt(count), error.cwiseAbs().maxCoeff(), cauchy.cwiseAbs().maxCoeff()};
+}
+
+// Points a given distance into the fluid from every third node.
+std::vector<Complex> beside_nodes(const Curve& curve, Side side, double distance) {
+  std::vector<Complex> z;
+  const double into_fluid = side == Side::interior ? distance : -distance;
+  for (int k = 0; k < curve.size(); k += 3)
+    z.push_back(curve.position[k] + into_fluid * perp(curve.tangent[k]));
+  return z;
+}
+
+// Largest difference from the Cauchy scheme on a finer copy of the curve, both with the density two_waves,
+// beside the nodes of the finer one.
+double difference_from_cauchy(const Curve& curve, const Curve& fine, Side side, double distance) {
+  const std::vector<Complex> z = beside_nodes(fine, side, distance);
+  const VelocityRows rows = InterpolationEvaluation(curve, side).velocity_rows(z);
+  const VelocityRows fine_rows = CloseEvaluation(fine, side, 1).velocity_rows(z);
+  const ComplexVector expected = velocity(fine_rows, density(two_waves, fine.size()));
+  return (velocity(rows, density(two_waves, curve.size())) - expected).cwiseAbs().maxCoeff();
+}
+
+// r = 1 + 0.2 cos 3 alpha.
+Curve three_lobed(int points) {
+  ComplexVector nodes(points);
+  for (int k = 0; k < points; ++k) {
+    const double alpha = 2.0 * pi * k / points;
+    nodes[k] = std::polar(1.0 + 0.2 * std::cos(3.0 * alpha), alpha);
+  }
+  return Curve::through(nodes);
+}
+
+}  // namespace
+
+// The root mean square over the targets is compared: the largest error of an ellipse belongs to the few
+// targets beside its tips, and depends on the sample.
+TEST_CASE("interpolation has the known near-singular errors on a disc and a 3:1 ellipse") {
+  struct Row {
+    const char* name;
+    Shape shape;
+    std::array<double, 5> known;  // N = 16, 32, ..., 256, for a density of order 1
+  };
+  for (const Row& row : {Row{"disc", {1.0, 1.0}, {5.6e-3, 6.5e-4, 3.6e-5, 9.5e-7, 1.5e-8}},
+                         Row{"3:1 ellipse", {1.0, 1.0 / 3.0}, {1.5e-2, 1.6e-3, 1.2e-3, 2.7e-4, 2.6e-5}}}) {
+    std::string table = row.name;
+    table += ", density (cos 2 alpha + i sin alpha)/sqrt(2), 400 random targets nearer than h:\n";
+    table += "    N  known    interpolation (rms, max)  cauchy (max)    error of u\n";
+    for (int k = 0; k < 5; ++k) {
+      const Errors errors = near_errors(row.shape, 16 << k);
+      char line[100];
+      std::snprintf(line, sizeof line, "  %3d  %.1e  %.1e  %.1e          %.1e\n", 16 << k, row.known[k],
+                    errors.root_mean_square, errors.largest, errors.largest_cauchy);
+      table += line;
+      INFO(table);
+      CHECK(errors.root_mean_square < 3.0 * row.known[k]);
+      CHECK(errors.root_mean_square > row.known[k] / 3.0);
+      CHECK(errors.largest < 10.0 * row.known[k]);
+      CHECK(errors.largest_cauchy < 0.2 * errors.largest);
+    }
+    MESSAGE(table);
+  }
+}
+
+TEST_CASE("the order of the near error rises towards seven") {
+  double previous = near_errors({1.0, 1.0}, 64).largest;
+  for (const auto& [points, least_order] : {std::pair(128, 5.2), std::pair(256, 5.8)}) {
+    const double error = near_errors({1.0, 1.0}, points).largest;
+    CHECK(std::log2(previous / error) > least_order);
+    CHECK(std::log2(previous / error) < 7.5);
+    previous = error;
+  }
+}
+
+TEST_CASE("inside an outer wall the errors fall alike") {
+  // On the unit circle z conj(z) = 1, so that inside C[e^{i m alpha}] = z^m for m >= 0 and 0 for m < 0.
+  const auto exact = [](const Modes& c, Complex z) {
+    const Complex phi = -0.5 * (c[2] + c[3] * z + c[4] * z * z), dphi = -0.5 * (c[3] + 2.0 * c[4] * z);
+    // conj(eta) + conj(zeta) eta' = Sum conj(c_{-m}) z^m + Sum m c_m z^{m-2}
+    const Complex psi = 0.5 * (std::conj(c[2]) + std::conj(c[1]) * z + std::conj(c[0]) * z * z + 2.0 * c[4]);
+    return phi - z * std::conj(dphi) - std::conj(psi);
+  };
+  std::mt19937_64 generator(3);
+  double previous = 1.0;
+  for (const auto& [points, bound] :
+       {std::pair(32, 1e-1), std::pair(64, 1e-3), std::pair(128, 1e-5), std::pair(256, 1e-7)}) {
+    const Curve curve = Shape{1.0, 1.0}.curve(points);
+    const double h = curve.length() / points;
+    std::vector<Complex> z;
+    for (int k = 0; k < 100; ++k) {
+      const double radius = 1.0 - h * uniform(generator);
+      z.push_back(std::polar(radius, 2.0 * pi * uniform(generator)));
+    }
+    const ComplexVector eta = density(two_waves, points);
+    const ComplexVector u = velocity(InterpolationEvaluation(curve, Side::interior).velocity_rows(z), eta);
+    const ComplexVector cauchy = velocity(CloseEvaluation(curve, Side::interior, 1).velocity_rows(z), eta);
+    double error = 0.0, error_cauchy = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      error = std::max(error, std::abs(u[k] - exact(two_waves, z[k])));
+      error_cauchy = std::max(error_cauchy, std::abs(cauchy[k] - exact(two_waves, z[k])));
+    }
+    INFO("N = ", curve.size());
+    CHECK(error < bound);
+    CHECK(error < 0.05 * previous);
+    CHECK(error_cauchy < 1e-13);
+    previous = error;
+  }
+}
+
+TEST_CASE("on the curve, and 1e-15 before it, the value is the limit from the fluid") {
+  const Curve curve = Shape{1.0, 0.5}.curve(128), fine = Shape{1.0, 0.5}.curve(512);
+  for (Side side : {Side::exterior, Side::interior}) {
+    // The Cauchy scheme has no value on the curve itself, so its limit is taken just before it.
+    const VelocityRows limit = CloseEvaluation(fine, side, 1).velocity_rows(beside_nodes(fine, side, 1e-12));
+    const ComplexVector expected = velocity(limit, density(two_waves, 512));
+    const InterpolationEvaluation evaluation(curve, side);
+    for (double distance : {0.0, 1e-15, 1e-12}) {
+      const VelocityRows rows = evaluation.velocity_rows(beside_nodes(fine, side, distance));
+      const double error = (velocity(rows, density(two_waves, 128)) - expected).cwiseAbs().maxCoeff();
+      INFO("distance ", distance, " error ", error);
+      CHECK(error < 1e-9);
+    }
+    CHECK(expected.cwiseAbs().maxCoeff() > 0.1);
+  }
+}
+
+TEST_CASE("near and far rules join at distance h, and far targets have the upsampled rule's accuracy") {
+  const Curve curve = Shape{1.0, 0.5}.curve(64), fine = Shape{1.0, 0.5}.curve(256);
+  const double h = curve.length() / 64;
+  const auto error = [&](double distance) {
+    return difference_from_cauchy(curve, fine, Side::exterior, distance);
+  };
+  CHECK(error(1.000001 * h) < 1e-13);
+  CHECK(error(3.0 * h) < 1e-13);
+  CHECK(error(0.999999 * h) > 1e-9);  // the near rule, not yet at its first point 1.1 h
+  CHECK(error(0.999999 * h) < 1e-3);
+}
+
+TEST_CASE("a far row is the trapezoid rule on the upsampled curve and density, Nyquist mode included") {
+  std::mt19937_64 generator(8);
+  ComplexVector eta(16);
+  for (Complex& value : eta) value = std::polar(uniform(generator), 2.0 * pi * uniform(generator));
+  const Curve curve = Shape{1.0, 0.5}.curve(16), fine = Shape{1.0, 0.5}.curve(64);
+  const std::vector<Complex> z{{1.5, 0.0}, {0.3, -1.1}, {-4.0, 3.0}};
+  for (Side side : {Side::exterior, Side::interior}) {
+    const ComplexVector expected = velocity(trapezoid_rows(fine, side, z), fourier_upsample(eta, 64));
+    const ComplexVector u = velocity(InterpolationEvaluation(curve, side).velocity_rows(z), eta);
+    CHECK((u - expected).cwiseAbs().maxCoeff() < 1e-14);
+    CHECK(std::abs(fourier_coefficients(eta)[8]) > 0.01);
+  }
+}
+
+TEST_CASE("a curve that is no ellipse and is not convex has the same convergence") {
+  double previous = 1.0;
+  const Curve fine = three_lobed(512);
+  for (const auto& [points, bound] : {std::pair(64, 1e-3), std::pair(128, 5e-5), std::pair(256, 2e-6)}) {
+    const Curve curve = three_lobed(points);
+    const double error = difference_from_cauchy(curve, fine, Side::exterior, 0.4 * curve.length() / points);
+    INFO("N = ", curve.size(), " error ", error);
+    CHECK(error < bound);
+    CHECK(error < previous / 4.0);
+    previous = error;
+  }
+}
+
+TEST_CASE("a rigid density gives no velocity outside a body, a constant one minus itself inside a wall") {
+  const Curve curve = Shape{1.0, 0.5}.curve(64);
+  const double h = curve.length() / 64;
+  const ComplexVector one = ComplexVector::Ones(64), rotation = imaginary_unit * curve.position;
+  std::vector<Complex> outside, inside;
+  for (int k = 0; k < 64; ++k)
+    for (double distance : {0.0, 0.3 * h, 2.0 * h}) {
+      outside.push_back(curve.position[k] - distance * perp(curve.tangent[k]));
+      if (distance < h) inside.push_back(curve.position[k] + 0.2 * distance * perp(curve.tangent[k]));
+    }
+  const InterpolationEvaluation body(curve, Side::exterior);
+  CHECK(velocity(body.velocity_rows(outside), one).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(velocity(body.velocity_rows(outside), rotation).cwiseAbs().maxCoeff() < 1e-12);
+  const InterpolationEvaluation wall(curve, Side::interior);
+  CHECK((velocity(wall.velocity_rows(inside), one).array() + 1.0).abs().maxCoeff() < 1e-12);
+}
+
+TEST_CASE("moving the curve moves the velocity with it") {
+  const Curve curve = Shape{1.0, 0.4}.curve(32);
+  const Complex turn = std::polar(1.0, 0.8), shift(4.0, -7.0);
+  const Curve moved = Curve::through((turn * curve.position).array() + shift);
+  const ComplexVector eta = density(two_waves, 32);
+  std::vector<Complex> z = near_targets({1.0, 0.4}, curve.length() / 32, 50).z, there;
+  z.push_back({2.0, 1.0});
+  for (Complex point : z) there.push_back(turn * point + shift);
+  const InterpolationEvaluation still(curve, Side::exterior), displaced(moved, Side::exterior);
+  const ComplexVector here = velocity(still.velocity_rows(z), eta);
+  const ComplexVector u = velocity(displaced.velocity_rows(there), turn * eta);
+  CHECK((u - turn * here).cwiseAbs().maxCoeff() < 1e-12);
+  CHECK(here.cwiseAbs().maxCoeff() > 0.1);
+}
+
+TEST_CASE("curves with an odd number of nodes or fewer than eight are refused") {
+  CHECK_THROWS_AS(InterpolationEvaluation(Shape{}.curve(6), Side::exterior), InputError);
+  CHECK_THROWS_AS(InterpolationEvaluation(Shape{}.curve(17), Side::exterior), InputError);
+  CHECK_NOTHROW(InterpolationEvaluation(Shape{}.curve(8), Side::exterior));
+}
