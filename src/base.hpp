@@ -19,16 +19,7 @@
 
 // Eigen's own threading changes the order of its sums with the number of threads; ours does not.
 #define EIGEN_DONT_PARALLELIZE
-// g++ 12 warns of uninitialised registers inside its own AVX-512 intrinsics (GCC bug 105593).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
 #include <eigen3/Eigen/Core>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
 
 namespace stokes {
 
