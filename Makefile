@@ -99,7 +99,8 @@ FIG2_CASES         = $(foreach d,0 1 2 2.1 2.5 2.75 3,delta$(d)h)
 FIG3_CASES         = y0.75 y0.755 y0.76
 LOCAL_CASES        = rate2_global rate2_local rate1_global rate1_local
 NCP_CASES          = head_on_full head_on_self shear_2h_full shear_2h_self shear_3h_full shear_3h_self
-ADAPTIVE_CASES     = fixed_dt0.04 adaptive_dt0.16 fixed_dt0.02 adaptive_dt0.08 fixed_dt0.01 adaptive_dt0.04
+ADAPTIVE_RUNS      = fixed_dt0.04 adaptive_dt0.16 fixed_dt0.02 adaptive_dt0.08 fixed_dt0.01 adaptive_dt0.04
+ADAPTIVE_CASES     = $(foreach r,$(ADAPTIVE_RUNS),$(r) $(r)_stiv $(r)_self)
 VARIANT_CASES      = $(foreach c,global local,$(foreach m,full self,gap_$(c)_$(m) \
                        $(foreach v,32 128,$(foreach g,whole frozen,stiv$(v)_$(g)_$(c)_$(m)))))
 
@@ -122,6 +123,7 @@ $(eval $(call experiment,fig3_pathlines,$(FIG3_CASES),$(FIG3_CASES)))
 $(eval $(call experiment,local_coupling,$(LOCAL_CASES),$(LOCAL_CASES)))
 $(eval $(call experiment,contact_variants,$(VARIANT_CASES),$(VARIANT_CASES)))
 $(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES)))
+$(eval $(call experiment,close_evaluation,disc ellipse3,disc ellipse3))
 $(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
 
 reproduce: $(BUILD)/verify

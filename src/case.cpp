@@ -34,7 +34,9 @@ Words<LcpMatrix> words_of(LcpMatrix) { return {{"full", LcpMatrix::full}, {"self
 Words<StivGradient> words_of(StivGradient) {
   return {{"full", StivGradient::full}, {"frozen", StivGradient::frozen}};
 }
-Words<NearSingular> words_of(NearSingular) { return {{"cauchy", NearSingular::cauchy}}; }
+Words<NearSingular> words_of(NearSingular) {
+  return {{"cauchy", NearSingular::cauchy}, {"interpolation", NearSingular::interpolation}};
+}
 Words<TimeCounting> words_of(TimeCounting) {
   return {{"accumulated", TimeCounting::accumulated}, {"exact", TimeCounting::exact}};
 }

@@ -16,7 +16,6 @@
 
 namespace stokes {
 
-enum class NearSingular { cauchy };
 
 struct Case {
   std::filesystem::path file;  // the case file; not a key

@@ -12,6 +12,12 @@ int upsampling_for(const Shape& shape) {
   return aspect <= 3.0 ? 2 : 3;
 }
 
+std::variant<CloseEvaluation, InterpolationEvaluation> close_evaluation(const Shape& shape, const Curve& curve,
+                                                                       NearSingular near_singular) {
+  if (near_singular == NearSingular::interpolation) return InterpolationEvaluation(curve, Side::exterior);
+  return CloseEvaluation(curve, Side::exterior, upsampling_for(shape));
+}
+
 // B: rigid motions at the nodes, 2N x 3.
 Matrix rigid_motions(const Curve& curve) {
   const int n = curve.size();
@@ -42,8 +48,8 @@ Matrix real_matrix(const VelocityRows& rows, Complex turn) {
   return m;
 }
 
-DiscreteShape::DiscreteShape(const Shape& shape_, int points)
-    : shape(shape_), curve(shape_.curve(points)), close(curve, Side::exterior, upsampling_for(shape_)) {
+DiscreteShape::DiscreteShape(const Shape& shape_, int points, NearSingular near_singular)
+    : shape(shape_), curve(shape_.curve(points)), close_(close_evaluation(shape, curve, near_singular)) {
   const int n = points;
   const Matrix B = rigid_motions(curve);
   Matrix weighted = B;
@@ -59,6 +65,10 @@ DiscreteShape::DiscreteShape(const Shape& shape_, int points)
     self.conjugate(k, k) = 0.5 * diagonal[k] * curve.tangent[k] * curve.tangent[k];
   }
   inverse = (real_matrix(self, 1.0) - 0.5 * B * moments).partialPivLu().inverse();
+}
+
+VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z) const {
+  return std::visit([&z](const auto& close) { return close.velocity_rows(z); }, close_);
 }
 
 RigidVelocity DiscreteShape::rigid_part(const Complex* density) const {
@@ -82,7 +92,7 @@ std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex
 }
 
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z) {
-  VelocityRows rows = shape.close.velocity_rows(z);
+  VelocityRows rows = shape.close_rows(z);
   const VelocityRows plain = trapezoid_rows(shape.curve, Side::exterior, z);
   rows.direct -= plain.direct;
   rows.conjugate -= plain.conjugate;
@@ -96,7 +106,7 @@ Matrix interaction(const PlacedShape& target, const PlacedShape& source) {
   const std::vector<int> near = near_rows(*source.shape, z);
   for (int row : near) close.push_back(z[row]);
   if (!near.empty()) {
-    const VelocityRows accurate = source.shape->close.velocity_rows(close);
+    const VelocityRows accurate = source.shape->close_rows(close);
     for (std::size_t r = 0; r < near.size(); ++r) {
       rows.direct.row(near[r]) = accurate.direct.row(r);
       rows.conjugate.row(near[r]) = accurate.conjugate.row(r);
@@ -107,7 +117,7 @@ Matrix interaction(const PlacedShape& target, const PlacedShape& source) {
 
 const DiscreteShape& ShapeCache::get(const Shape& shape, int points) {
   auto& entry = shapes_[{shape.a, shape.b, points}];
-  if (!entry) entry = std::make_unique<DiscreteShape>(shape, points);
+  if (!entry) entry = std::make_unique<DiscreteShape>(shape, points, near_singular_);
   return *entry;
 }
 

@@ -4,9 +4,13 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
+#include <variant>
+#include <vector>
 
 #include "cauchy.hpp"
 #include "curve.hpp"
+#include "interpolation.hpp"
 #include "shape.hpp"
 #include "suspension.hpp"
 
@@ -19,9 +23,15 @@ Eigen::Map<Vector> as_real(ComplexVector& v);
 // The real 2T x 2N matrix of eta -> turn * (direct eta + conjugate conj(eta)), interleaved both ways.
 Matrix real_matrix(const VelocityRows& rows, Complex turn);
 
+// How the double layer is evaluated close to the curve.
+enum class NearSingular {
+  cauchy,         // Cauchy integrals, spectrally accurate at any distance (cauchy.hpp)
+  interpolation,  // the paper's: upsampling and interpolation from the boundary limit (interpolation.hpp)
+};
+
 class DiscreteShape {
  public:
-  DiscreteShape(const Shape& shape, int points);
+  DiscreteShape(const Shape& shape, int points, NearSingular near_singular);
 
   int size() const { return curve.size(); }
 
@@ -29,12 +39,17 @@ class DiscreteShape {
   // (U, omega) = G^-1 B_w^T eta with B = [e1, e2, i x] and G = B_w^T B.
   RigidVelocity rigid_part(const Complex* density) const;
 
+  // Rows of the double layer's velocity at points z (body frame) outside the body, at any distance.
+  VelocityRows close_rows(const std::vector<Complex>& z) const;
+
   Shape shape;
   Curve curve;
-  CloseEvaluation close;
   Eigen::Matrix<double, 3, Eigen::Dynamic> moments;  // G^-1 B_w^T, 3 x 2N
   Vector diagonal;   // s-signed diagonal limit -s kappa w/(2 pi) of the double layer, factor of t (t . eta)
   Matrix inverse;    // of the deflated block -I/2 + D - (1/2) B G^-1 B_w^T, 2N x 2N
+
+ private:
+  std::variant<CloseEvaluation, InterpolationEvaluation> close_;
 };
 
 // A discrete shape where it stands, and the place of its density among those of a suspension.
@@ -66,10 +81,13 @@ Matrix interaction(const PlacedShape& target, const PlacedShape& source);
 // The shapes in use; each distinct (shape, points) is discretised and factorised once.
 class ShapeCache {
  public:
+  explicit ShapeCache(NearSingular near_singular = NearSingular::cauchy) : near_singular_(near_singular) {}
+
   const DiscreteShape& get(const Shape& shape, int points);
   int factorisations() const { return static_cast<int>(shapes_.size()); }
 
  private:
+  NearSingular near_singular_;
   std::map<std::tuple<double, double, int>, std::unique_ptr<DiscreteShape>> shapes_;
 };
 

@@ -22,6 +22,7 @@ SimulationOptions options_of(const Case& c, double separation) {
   options.stepper.flow = {c.flow, c.rate};
   options.stepper.points_per_body = c.points_per_body;
   options.stepper.stokes.gmres_tolerance = c.gmres_tolerance;
+  options.stepper.near_singular = c.near_singular;
   options.stepper.contact = c.contact;
   options.stepper.separation = separation;
   options.stepper.coupling = c.coupling;

@@ -24,7 +24,7 @@ bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {
 }  // namespace
 
 Stepper::Stepper(Suspension bodies, const StepperOptions& options)
-    : bodies_(std::move(bodies)), options_(options) {}
+    : bodies_(std::move(bodies)), options_(options), shapes_(options.near_singular) {}
 
 int Stepper::shape_count() const {
   std::vector<Shape> distinct;

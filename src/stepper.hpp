@@ -33,6 +33,7 @@ struct StepperOptions {
   BackgroundFlow flow;
   int points_per_body = 32;
   StokesOptions stokes;
+  NearSingular near_singular = NearSingular::cauchy;
   ContactModel contact = ContactModel::gap;
   double separation = 0.0;  // length
   Coupling coupling = Coupling::global;

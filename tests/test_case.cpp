@@ -247,7 +247,7 @@ TEST_CASE("a word that is not a value is refused with the values and the nearest
                 "contact = 'gab' is unknown: it can be gap or stiv or none; did you mean 'gap'?");
   CHECK_ARGUMENT("flow=sheer", "it can be shear or extension or taylor_green or none; did you mean 'shear'?");
   CHECK_ARGUMENT("coupling=globl", "it can be global or local; did you mean 'global'?");
-  CHECK_ARGUMENT("near_singular=Cauchy", "it can be cauchy; did you mean 'cauchy'?");
+  CHECK_ARGUMENT("near_singular=Cauchy", "it can be cauchy or interpolation; did you mean 'cauchy'?");
   CHECK_ARGUMENT("time_counting=exactly", "it can be accumulated or exact; did you mean 'exact'?");
   CHECK_ARGUMENT("adaptive=y", "it can be yes or no; did you mean 'yes'?");
 }
