@@ -7,7 +7,6 @@
 #include "curve.hpp"
 #include "neighbours.hpp"
 #include "text.hpp"
-#include "threads.hpp"
 
 namespace stokes {
 
@@ -132,12 +131,12 @@ std::vector<ContactConstraint> StivCollector::collect(const std::vector<Pose>& t
     radius.push_back(body.shape.circumradius());
   }
   for (const Pose& pose : trial) to.push_back(pose.centre);
-  const std::vector<std::pair<int, int>> pairs = neighbour_pairs(from, to, radius, separation_);
-  std::vector<std::vector<ContactConstraint>> found(pairs.size());
-  parallel_for_large(static_cast<long>(pairs.size()), static_cast<long>(pairs.size()) * options_.vertices,
-                     [&](long i) { found[i] = collect_pair(pairs[i].first, pairs[i].second, trial); });
+  const auto pairs = neighbour_pairs(from, to, radius, separation_);
   std::vector<ContactConstraint> contacts;
-  for (const auto& regions : found) contacts.insert(contacts.end(), regions.begin(), regions.end());
+  for (const auto& [a, b] : pairs) {
+    const std::vector<ContactConstraint> regions = collect_pair(a, b, trial);
+    contacts.insert(contacts.end(), regions.begin(), regions.end());
+  }
   return contacts;
 }
 

@@ -56,7 +56,7 @@ struct StivOptions {
 // below 0.2 is meant, w must be below pi. Bodies must not overlap at the start; offsets may, by less than
 // the separation: a cross with no vertex of either inside the other is not seen.
 // Cost with 128 vertices: 5 to 10 microseconds for a pair in contact, 80 for one that passes through, less
-// for one whose circles only meet; 0.2 ms for 48 crowded bodies.
+// for one whose circles only meet; up to 1 ms for 48 crowded bodies.
 class StivCollector {
  public:
   // separation >= 0. The suspension must outlive the collector. Raises InputError for fewer than 8 vertices
@@ -65,7 +65,7 @@ class StivCollector {
 
   double separation() const { return separation_; }
 
-  // The regions in contact, sorted by pair and region; the same bits whatever the number of threads.
+  // The regions in contact, sorted by pair and region, on the calling thread.
   // trial: one pose per body. Raises what neighbour_pairs() raises.
   std::vector<ContactConstraint> collect(const std::vector<Pose>& trial) const;
 
