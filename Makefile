@@ -15,7 +15,7 @@ FLAGS     = -std=c++20 $(WARNINGS) $(CXXFLAGS) $(ARCH) $(OPENMP) $(SANITIZERS) -
 LIBS      = -lfftw3 $(LDLIBS)
 
 names        = $(basename $(notdir $(wildcard $(1))))
-PROGRAMS    := simulate bench
+PROGRAMS    := simulate bench bench_fmm
 EXPERIMENTS := $(call names,experiments/*.cpp)
 LIBRARY     := $(filter-out $(PROGRAMS),$(call names,src/*.cpp))
 TESTS       := $(call names,tests/*.cpp)
