@@ -9,15 +9,20 @@ namespace stokes {
 namespace {
 
 constexpr double relative_tolerance = 1e-4;  // of the separation, at active contacts
-constexpr double smallest_separation = 1e-8; // of the smallest semi-axis, when none is asked for
+// When no separation is asked for: of the smallest semi-axis, and of the distance from the origin, whose
+// round-off the tolerance must exceed.
+constexpr double smallest_separation = 1e-8, smallest_of_extent = 1e-10;
 
 }  // namespace
 
 GapCollector::GapCollector(const Suspension& start, double separation) : start_(start), separation_(separation) {
   if (separation_ == 0.0) {
-    double smallest = start.front().shape.inradius();
-    for (const Body& body : start) smallest = std::min(smallest, body.shape.inradius());
-    separation_ = smallest_separation * smallest;
+    double smallest = start.front().shape.inradius(), extent = 0.0;
+    for (const Body& body : start) {
+      smallest = std::min(smallest, body.shape.inradius());
+      extent = std::max(extent, std::abs(body.pose.centre));
+    }
+    separation_ = std::max(smallest_separation * smallest, smallest_of_extent * extent);
   }
   tolerance_ = relative_tolerance * separation_;
 }

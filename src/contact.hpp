@@ -37,7 +37,8 @@ struct ContactConstraint {
 //   opposite and collinear in the configuration in which the fluid is solved.
 class GapCollector {
  public:
-  // separation >= 0. With 0 the bodies are kept 1e-8 of the smallest semi-axis apart.
+  // separation >= 0. With 0 the bodies are kept 1e-8 of the smallest semi-axis apart,
+  // or 1e-10 of the largest distance of a centre from the origin.
   GapCollector(const Suspension& start, double separation);
 
   double separation() const { return separation_; }

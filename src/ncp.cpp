@@ -117,9 +117,9 @@ class Iteration {
       if (!(B(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint),
                       " does not part them (mobility ", B(l, l) / dt_,
-                      "): the points per body do not resolve so small a gap");
+                      "): the step takes them past each other, or the points per body do not resolve so small a gap");
     const LcpResult lcp = solve_lcp(B, b);
-    if (!lcp.solved) return lcp.message;
+    if (!lcp.solved) return concat(lcp.message, " Worst: ", name(worst()->constraint));
     for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
     return {};
   }

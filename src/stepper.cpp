@@ -40,9 +40,15 @@ Stepper::Configuration& Stepper::configuration(double driving) {
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   const BackgroundFlow flow{options_.flow.kind, driving * options_.flow.rate};
   // Densities live in the body frames, so the previous ones are already turned with their bodies.
-  StokesSolution solution = options_.coupling == Coupling::local && lagged_.size() > 0
-                                ? now_->system.sweep(flow, external, lagged_)
-                                : now_->system.solve(flow, external, driving * guess_);
+  StokesSolution solution;
+  try {
+    solution = options_.coupling == Coupling::local && lagged_.size() > 0
+                   ? now_->system.sweep(flow, external, lagged_)
+                   : now_->system.solve(flow, external, driving * guess_);
+  } catch (...) {
+    now_.reset();  // a configuration without its velocities is none
+    throw;
+  }
   now_->gmres_iterations = solution.iterations;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
