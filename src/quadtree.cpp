@@ -89,7 +89,7 @@ Quadtree::Quadtree(const PointArray& sources, const PointArray* targets, int lea
   if (targets) targets_ = unsorted(*targets, "target");
   add_root();
   QuadrantSorter sort_sources(sources_), sort_targets(targets_);
-  while (level_count() <= deepest_) {
+  for (;;) {
     const int before = box_count();
     add_level(leaf_size, sort_sources, sort_targets);
     if (box_count() == before) break;
@@ -144,9 +144,9 @@ void Quadtree::add_level(int leaf_size, Sorter& sort_sources, Sorter& sort_targe
   long work = 0;
   for (int b = first_box(level); b < first_box(level + 1); ++b) {
     Box& box = boxes_[b];
-    if (level == deepest_ || std::max(box.sources.size(), box.targets.size()) <= leaf_size) continue;
+    if (std::max(box.sources.size(), box.targets.size()) <= leaf_size) continue;
     box.coincident = in_one_place(box);
-    if (box.coincident) continue;
+    if (box.coincident || level == deepest_) continue;
     split.push_back(b);
     work += box.sources.size() + box.targets.size();
   }

@@ -1,6 +1,7 @@
 // Bodies and where they are.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "shape.hpp"
@@ -16,11 +17,36 @@ struct Pose {
   Complex axis() const { return std::polar(1.0, angle); }
 };
 
+// Velocity of a wall's surface, the wall itself staying where it is:
+//   u(x) = angular_velocity perp(x - c) + source (x - c) / (2 pi |x - c|^2),  c the wall's centre.
+struct SurfaceMotion {
+  double angular_velocity = 0.0;
+  double source = 0.0;  // area of fluid per time, positive away from the centre
+
+  Complex velocity(Complex from_centre) const {
+    Complex u = angular_velocity * perp(from_centre);
+    if (source != 0.0) u += source / (2.0 * pi * std::norm(from_centre)) * from_centre;
+    return u;
+  }
+};
+
+// A rigid body, or, held in place, an obstacle or an inner wall of the domain.
 struct Body {
   Shape shape;
   Pose pose;
   Complex force{0.0, 0.0};  // external force on the body
   double torque = 0.0;      // external torque on the body about its centre
+  bool fixed = false;       // does not move, whatever the force on it; may have a surface that does
+  SurfaceMotion surface{};  // of a fixed body
+  int points = 0;           // on its boundary; 0: as many as on every body
+};
+
+// A circular wall around the fluid.
+struct Container {
+  Complex centre{0.0, 0.0};
+  double radius = 0.0;
+  int points = 0;  // on its boundary
+  SurfaceMotion surface{};
 };
 
 // Translational and angular velocity of a body.
@@ -35,7 +61,11 @@ struct Wrench {
   double torque = 0.0;
 };
 
-using Suspension = std::vector<Body>;
+// The bodies, in order, and the wall around them; without one the fluid is unbounded.
+struct Suspension : std::vector<Body> {
+  using std::vector<Body>::vector;
+  std::optional<Container> container;
+};
 
 inline Pose advance(const Pose& pose, const RigidVelocity& u, double dt) {
   return {pose.centre + dt * u.velocity, pose.angle + dt * u.omega};

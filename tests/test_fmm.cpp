@@ -320,6 +320,10 @@ TEST_CASE("outliers and a distance from the origin cost no accuracy") {
     for (int k = 0; k < 2000; ++k) moved.points.set(k, moved.points[k] + Complex(distance, -0.3 * distance));
     CHECK(fmm_error(moved, moved.stresslets(), 1e-12) <= 1e-12);
   }
+  // Heaps on neighbouring doubles, where the centres of small boxes could not be stored.
+  Sources heaps = make_sources(PointSet::uniform, 2500, 14);
+  for (int k = 0; k < 2500; ++k) heaps.points.set(k, {1e14 + k % 5 * 0x1p-6, 1e14 + k / 5 % 5 * 0x1p-6});
+  CHECK(fmm_error(heaps, heaps.stresslets(), 1e-12) <= 1e-12);
 }
 
 TEST_CASE("what is not a number, not in range or not one for each source is refused") {
@@ -359,7 +363,7 @@ TEST_CASE("what is not a number, not in range or not one for each source is refu
 }
 
 #ifndef __SANITIZE_ADDRESS__
-TEST_CASE("1e5 points take no longer than the direct sum of 1.4e4, and a plan no longer than they do") {
+TEST_CASE("1e5 points, spread or in one place, take no longer than the direct sum of 1.4e4, a plan less") {
   const int threads = thread_count();
   set_thread_count(1);
   const auto seconds = [](const auto& work) {
@@ -383,6 +387,10 @@ TEST_CASE("1e5 points take no longer than the direct sum of 1.4e4, and a plan no
   const double planning = seconds([&] { FmmPlan(many.points, {1e-9}); });
   CHECK(fmm <= direct);
   CHECK(planning <= fmm);
+  Sources heap = many;
+  for (int k = 0; k < 100000; ++k) heap.points.set(k, {0.3, 0.4});
+  const FmmPlan heap_plan(heap.points, {1e-9});
+  CHECK(seconds([&] { heap_plan.evaluate(heap.stresslets(), FlowOutput::velocity, fields); }) <= direct);
   set_thread_count(threads);
 }
 #endif
