@@ -46,7 +46,7 @@ void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separati
 
 int run(const std::vector<std::string>& arguments) {
   const Case c = read_case(arguments[0], {arguments.begin() + 1, arguments.end()});
-  const Suspension bodies = read_bodies(c.bodies_path());
+  const Suspension bodies = read_suspension(c);
   const double separation = separation_length(c, bodies);
   if (c.threads) set_thread_count(*c.threads);
   Progress progress(c.end_time);
