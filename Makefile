@@ -98,6 +98,7 @@ TABLE1_CASES       = $(foreach t,$(TABLE1_STEPS),$(foreach d,$(TABLE1_SEPARATION
 FIG2_CASES         = $(foreach d,0 1 2 2.1 2.5 2.75 3,delta$(d)h)
 FIG3_CASES         = y0.75 y0.755 y0.76
 LOCAL_CASES        = rate2_global rate2_local rate1_global rate1_local
+CLOSE_CASES        = disc ellipse3 disc_spread ellipse3_spread
 NCP_CASES          = head_on_full head_on_self shear_2h_full shear_2h_self shear_3h_full shear_3h_self
 ADAPTIVE_RUNS      = fixed_dt0.04 adaptive_dt0.16 fixed_dt0.02 adaptive_dt0.08 fixed_dt0.01 adaptive_dt0.04
 ADAPTIVE_CASES     = $(foreach r,$(ADAPTIVE_RUNS),$(r) $(r)_stiv $(r)_self)
@@ -123,7 +124,7 @@ $(eval $(call experiment,fig3_pathlines,$(FIG3_CASES),$(FIG3_CASES)))
 $(eval $(call experiment,local_coupling,$(LOCAL_CASES),$(LOCAL_CASES)))
 $(eval $(call experiment,contact_variants,$(VARIANT_CASES),$(VARIANT_CASES)))
 $(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES)))
-$(eval $(call experiment,close_evaluation,disc ellipse3,disc ellipse3))
+$(eval $(call experiment,close_evaluation,$(CLOSE_CASES),$(CLOSE_CASES)))
 $(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
 
 reproduce: $(BUILD)/verify

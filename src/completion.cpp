@@ -6,7 +6,8 @@ namespace stokes {
 //   force F:  u = (1/4 pi) ( -ln|A w| F + F/2 + (conj(F)/2) (z/conj(s) - conj(m)) ),  m = (A^2+B^2)/(A w s)
 //   torque L: phi = i Om B/w, psi = i Om A/w + i Om B (A/w + B w)/(A w^2 - B), Om = L/(4 pi (A^2+B^2)),
 //             u = phi - z conj(phi') - conj(psi)
-Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x) {
+Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
+                            double log_length) {
   const double A = 0.5 * (shape.a + shape.b), B = 0.5 * (shape.a - shape.b);
   const Complex axis = pose.axis();
   const Complex z = std::conj(axis) * (x - pose.centre);
@@ -20,7 +21,7 @@ Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& 
   const Complex F = std::conj(axis) * wrench.force;
   const Complex m = norm / (A * w * s);
   const Complex from_force =
-      (F * (0.5 - std::log(std::abs(A * w))) + 0.5 * std::conj(F) * (z / std::conj(s) - std::conj(m))) / (4.0 * pi);
+      (F * (0.5 - std::log(std::abs(A * w) / log_length)) + 0.5 * std::conj(F) * (z / std::conj(s) - std::conj(m))) / (4.0 * pi);
 
   const Complex iOm(0.0, wrench.torque / (4.0 * pi * norm));
   const Complex phi = iOm * B / w;
@@ -32,10 +33,10 @@ Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& 
 }
 
 // On |w| = 1: u = (1/4 pi) ( (1/2 - ln A) F + (B/2A) conj(F) )  and  omega = Om.
-RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench) {
+RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length) {
   const double A = 0.5 * (shape.a + shape.b), B = 0.5 * (shape.a - shape.b);
   const Complex axis = pose.axis(), F = std::conj(axis) * wrench.force;
-  return {axis * ((0.5 - std::log(A)) * F + 0.5 * B / A * std::conj(F)) / (4.0 * pi),
+  return {axis * ((0.5 - std::log(A / log_length)) * F + 0.5 * B / A * std::conj(F)) / (4.0 * pi),
           wrench.torque / (4.0 * pi * (A * A + B * B))};
 }
 

@@ -12,12 +12,13 @@ namespace stokes {
 
 // Velocity at x, on or outside the body, of a body that exerts `wrench` (force, and torque about its
 // centre) on an otherwise quiescent unbounded fluid; up to the constant velocity that the logarithm
-// leaves free.
-Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x);
+// leaves free, which log_length, the unit of the distances in it, settles.
+Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
+                            double log_length = 1.0);
 
 // The rigid motion to which that flow reduces on the body's own boundary: the self-mobility of the body. In
 // two dimensions its translational part depends on the unit of length and may be negative.
-RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench);
+RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length = 1.0);
 
 // Stresslet S_11 + i S_12 (laboratory frame, about the centre) that the completion flow carries: zero
 // for a disc; a torque L on an ellipse carries -i (L/2)(a^2-b^2)/(a^2+b^2) in the body frame.

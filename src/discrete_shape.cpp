@@ -2,6 +2,9 @@
 
 #include <eigen3/Eigen/LU>
 
+#include "completion.hpp"
+#include "fourier.hpp"
+
 namespace stokes {
 
 namespace {
@@ -13,9 +16,9 @@ int upsampling_for(const Shape& shape) {
 }
 
 std::variant<CloseEvaluation, InterpolationEvaluation> close_evaluation(const Shape& shape, const Curve& curve,
-                                                                       NearSingular near_singular) {
-  if (near_singular == NearSingular::interpolation) return InterpolationEvaluation(curve, Side::exterior);
-  return CloseEvaluation(curve, Side::exterior, upsampling_for(shape));
+                                                                       Side side, NearSingular near_singular) {
+  if (near_singular == NearSingular::interpolation) return InterpolationEvaluation(curve, side);
+  return CloseEvaluation(curve, side, upsampling_for(shape));
 }
 
 // B: rigid motions at the nodes, 2N x 3.
@@ -48,23 +51,47 @@ Matrix real_matrix(const VelocityRows& rows, Complex turn) {
   return m;
 }
 
-DiscreteShape::DiscreteShape(const Shape& shape_, int points, NearSingular near_singular)
-    : shape(shape_), curve(shape_.curve(points)), close_(close_evaluation(shape, curve, near_singular)) {
-  const int n = points;
+DiscreteShape::DiscreteShape(const Shape& shape_, const Discretisation& nodes_, BoundaryKind kind_, double log_length_,
+                             NearSingular near_singular)
+    : shape(shape_), nodes(nodes_), kind(kind_), log_length(log_length_), curve(shape_.curve(nodes_)),
+      close_(close_evaluation(shape, curve, side(), near_singular)) {
+  const int n = size();
   const Matrix B = rigid_motions(curve);
   Matrix weighted = B;
   for (int k = 0; k < n; ++k) weighted.middleRows(2 * k, 2) *= curve.weight[k];
   moments = (weighted.transpose() * B).inverse() * weighted.transpose();
-  diagonal = curve.curvature.cwiseProduct(curve.weight) / (2.0 * pi);
+  closure = -2.0 * pi / curve.length() * weighted.transpose();
+  const double s = side() == Side::interior ? 1.0 : -1.0;
+  diagonal = -s * curve.curvature.cwiseProduct(curve.weight) / (2.0 * pi);
 
-  VelocityRows self{Matrix(n, n), ComplexMatrix(n, n)};
-  const std::vector<Complex> nodes(curve.position.begin(), curve.position.end());
-  self = trapezoid_rows(curve, Side::exterior, nodes);
+  const std::vector<Complex> positions(curve.position.begin(), curve.position.end());
+  VelocityRows self = trapezoid_rows(curve, side(), positions);
   for (int k = 0; k < n; ++k) {  // t (t . eta) = (eta + t^2 conj(eta)) / 2
     self.direct(k, k) = 0.5 * diagonal[k] - 0.5;
     self.conjugate(k, k) = 0.5 * diagonal[k] * curve.tangent[k] * curve.tangent[k];
   }
-  inverse = (real_matrix(self, 1.0) - 0.5 * B * moments).partialPivLu().inverse();
+  Matrix block = real_matrix(self, 1.0);
+  if (kind == BoundaryKind::free) {
+    block -= 0.5 * B * moments;
+  } else if (kind == BoundaryKind::fixed) {
+    // The completion flows are rigid motions on their own boundary.
+    Eigen::Matrix3d trace;
+    for (int j = 0; j < 3; ++j) {
+      const Wrench unit{{j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0}, j == 2 ? 1.0 : 0.0};
+      const RigidVelocity u = completion_trace(shape, {}, unit, log_length);
+      trace.col(j) << u.velocity.real(), u.velocity.imag(), u.omega;
+    }
+    block += B * trace * closure;
+  } else {
+    Vector normal(2 * n), flux(2 * n);
+    for (int k = 0; k < n; ++k) {
+      const Complex w = weighted_normal(k), unit = w / curve.weight[k];
+      flux[2 * k] = w.real(), flux[2 * k + 1] = w.imag();
+      normal[2 * k] = unit.real(), normal[2 * k + 1] = unit.imag();
+    }
+    block -= 0.5 / curve.length() * normal * flux.transpose();
+  }
+  inverse = block.partialPivLu().inverse();
 }
 
 VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z) const {
@@ -75,6 +102,18 @@ RigidVelocity DiscreteShape::rigid_part(const Complex* density) const {
   const Eigen::Map<const Vector> eta(reinterpret_cast<const double*>(density), 2 * size());
   const Eigen::Vector3d m = moments * eta;
   return {{m[0], m[1]}, m[2]};
+}
+
+Wrench DiscreteShape::wrench(const Complex* density) const {
+  const Eigen::Map<const Vector> eta(reinterpret_cast<const double*>(density), 2 * size());
+  const Eigen::Vector3d w = closure * eta;
+  return {{w[0], w[1]}, w[2]};
+}
+
+double DiscreteShape::flux_part(const Complex* density) const {
+  double flux = 0.0;
+  for (int k = 0; k < size(); ++k) flux += dot(weighted_normal(k), density[k]);
+  return -0.5 / curve.length() * flux;
 }
 
 double near_distance(const DiscreteShape& shape) { return 7.0 * shape.curve.max_spacing(); }
@@ -93,32 +132,36 @@ std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex
 
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z) {
   VelocityRows rows = shape.close_rows(z);
-  const VelocityRows plain = trapezoid_rows(shape.curve, Side::exterior, z);
+  const VelocityRows plain = trapezoid_rows(shape.curve, shape.side(), z);
   rows.direct -= plain.direct;
   rows.conjugate -= plain.conjugate;
   return rows;
 }
 
-Matrix interaction(const PlacedShape& target, const PlacedShape& source) {
-  std::vector<Complex> z, close;
-  for (int k = 0; k < target.size(); ++k) z.push_back(source.local(target.node(k)));
-  VelocityRows rows = trapezoid_rows(source.shape->curve, Side::exterior, z);
-  const std::vector<int> near = near_rows(*source.shape, z);
-  for (int row : near) close.push_back(z[row]);
-  if (!near.empty()) {
-    const VelocityRows accurate = source.shape->close_rows(close);
-    for (std::size_t r = 0; r < near.size(); ++r) {
-      rows.direct.row(near[r]) = accurate.direct.row(r);
-      rows.conjugate.row(near[r]) = accurate.conjugate.row(r);
-    }
+// The series of the old nodes, summed at the new ones by Horner's rule in e^{i s}.
+ComplexVector move_density(const ComplexVector& density, const Discretisation& from, const Discretisation& to) {
+  if (from == to) return density;
+  const Eigen::Index n = density.size(), half = n / 2;
+  const ComplexVector c = fourier_coefficients(density);
+  const std::vector<double> alpha = Shape::parameters(to);
+  ComplexVector moved(static_cast<Eigen::Index>(alpha.size()));
+  for (std::size_t j = 0; j < alpha.size(); ++j) {
+    const double s = Shape::position_of(alpha[j], from);
+    const Complex e = std::polar(1.0, s), back = std::conj(e);
+    Complex up = 0.5 * c[half], down = 0.5 * c[half];
+    for (Eigen::Index k = half - 1; k >= 1; --k) up = up * e + c[k], down = down * back + c[n - k];
+    moved[static_cast<Eigen::Index>(j)] = c[0] + up * e + down * back;
   }
-  return real_matrix(rows, source.axis * std::conj(target.axis));
+  return moved;
 }
 
-const DiscreteShape& ShapeCache::get(const Shape& shape, int points) {
-  auto& entry = shapes_[{shape.a, shape.b, points}];
-  if (!entry) entry = std::make_unique<DiscreteShape>(shape, points, near_singular_);
-  return *entry;
+std::shared_ptr<const DiscreteShape> ShapeCache::get(const Shape& shape, const Discretisation& nodes,
+                                                     BoundaryKind kind, double log_length) {
+  const auto make = [&] { return std::make_shared<const DiscreteShape>(shape, nodes, kind, log_length, near_singular_); };
+  if (!nodes.clusters.empty()) return make();
+  auto& entry = shapes_[{shape.a, shape.b, nodes.points, kind, log_length}];
+  if (!entry) entry = make();
+  return entry;
 }
 
 }  // namespace stokes

@@ -1,4 +1,4 @@
-// A shape at a given resolution, in its body frame, with everything that is computed once per shape and
+// A boundary at a given resolution, in its body frame, with everything that is computed once per shape and
 // then only rotated: quadrature, rigid-motion moments, close evaluation and the preconditioner block.
 #pragma once
 
@@ -29,24 +29,52 @@ enum class NearSingular {
   interpolation,  // the paper's: upsampling and interpolation from the boundary limit (interpolation.hpp)
 };
 
+// What is known on a boundary, and with it how the equations are closed, D being the double layer of the
+// boundary on itself, B = [e1, e2, i x] the rigid motions, B_w the same times the quadrature weights:
+enum class BoundaryKind {
+  free,       // force and torque of a body: -1/2 + D - (1/2) B G^-1 B_w^T, G = B_w^T B; the rigid velocity is
+              // half the density's rigid part
+  fixed,      // velocity of an obstacle or inner wall: -1/2 + D + C beta B_w^T, C the completion flows of unit
+              // force and torque, beta = -2 pi / length: the wrench is beta B_w^T eta
+  container,  // velocity of the wall around the fluid: -1/2 + D + nu n Int n.eta, nu = -1/(2 length)
+};
+
 class DiscreteShape {
  public:
-  DiscreteShape(const Shape& shape, int points, NearSingular near_singular);
+  // A container must be a disc. log_length: the length that divides distances in the logarithm of Stokeslets.
+  // Cost O(N^3).
+  DiscreteShape(const Shape& shape, const Discretisation& nodes, BoundaryKind kind, double log_length,
+                NearSingular near_singular);
 
   int size() const { return curve.size(); }
+  Side side() const { return kind == BoundaryKind::container ? Side::interior : Side::exterior; }
+  // Weight times normal out of the fluid at a node, body frame.
+  Complex weighted_normal(int k) const {
+    return (side() == Side::interior ? -1.0 : 1.0) * curve.weight[k] * imaginary_unit * curve.tangent[k];
+  }
 
   // Rigid part of a density: the motion whose quadrature-weighted moments it shares,
-  // (U, omega) = G^-1 B_w^T eta with B = [e1, e2, i x] and G = B_w^T B.
+  // (U, omega) = G^-1 B_w^T eta.
   RigidVelocity rigid_part(const Complex* density) const;
 
-  // Rows of the double layer's velocity at points z (body frame) outside the body, at any distance.
+  // Force and torque of a fixed boundary on the fluid, body frame.
+  Wrench wrench(const Complex* density) const;
+
+  // What a container's density adds to the operator at its node k is flux_part() n_k, n the unit normal.
+  double flux_part(const Complex* density) const;
+
+  // Rows of the double layer's velocity at points z (body frame) in the fluid, at any distance.
   VelocityRows close_rows(const std::vector<Complex>& z) const;
 
   Shape shape;
+  Discretisation nodes;
+  BoundaryKind kind;
+  double log_length;
   Curve curve;
   Eigen::Matrix<double, 3, Eigen::Dynamic> moments;  // G^-1 B_w^T, 3 x 2N
-  Vector diagonal;   // s-signed diagonal limit -s kappa w/(2 pi) of the double layer, factor of t (t . eta)
-  Matrix inverse;    // of the deflated block -I/2 + D - (1/2) B G^-1 B_w^T, 2N x 2N
+  Vector diagonal;   // limit -s kappa w/(2 pi) of the double layer at a node itself, factor of t (t . eta)
+  Matrix inverse;    // of the boundary's own block, 2N x 2N
+  Eigen::Matrix<double, 3, Eigen::Dynamic> closure;  // beta B_w^T, 3 x 2N
 
  private:
   std::variant<CloseEvaluation, InterpolationEvaluation> close_;
@@ -54,7 +82,7 @@ class DiscreteShape {
 
 // A discrete shape where it stands, and the place of its density among those of a suspension.
 struct PlacedShape {
-  const DiscreteShape* shape;
+  std::shared_ptr<const DiscreteShape> shape;
   Pose pose;
   Complex axis;
   int offset;  // of its first node
@@ -74,21 +102,26 @@ std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex
 // What the close evaluation adds to the plain trapezoid rule at points z.
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z);
 
-// The double layer of `source` at the nodes of `target`, both densities in their body frames, accurate at any
-// distance: real, 2 N_target x 2 N_source.
-Matrix interaction(const PlacedShape& target, const PlacedShape& source);
+// A density moved from one set of nodes to another of the same shape by trigonometric interpolation.
+ComplexVector move_density(const ComplexVector& density, const Discretisation& from, const Discretisation& to);
 
-// The shapes in use; each distinct (shape, points) is discretised and factorised once.
+// The shapes in use; each distinct one with nodes at equal steps is discretised and factorised once. Nodes with
+// clusters belong to one configuration and are made afresh.
 class ShapeCache {
  public:
   explicit ShapeCache(NearSingular near_singular = NearSingular::cauchy) : near_singular_(near_singular) {}
 
-  const DiscreteShape& get(const Shape& shape, int points);
+  std::shared_ptr<const DiscreteShape> get(const Shape& shape, const Discretisation& nodes, BoundaryKind kind,
+                                           double log_length);
+  // Of boundaries with nodes at equal steps.
   int factorisations() const { return static_cast<int>(shapes_.size()); }
+  NearSingular near_singular() const { return near_singular_; }
 
  private:
+  using Key = std::tuple<double, double, int, BoundaryKind, double>;
+
   NearSingular near_singular_;
-  std::map<std::tuple<double, double, int>, std::unique_ptr<DiscreteShape>> shapes_;
+  std::map<Key, std::shared_ptr<const DiscreteShape>> shapes_;
 };
 
 }  // namespace stokes

@@ -1,4 +1,4 @@
-// Background flows of an unbounded suspension.
+// What drives the fluid: a background flow, and walls whose surfaces move.
 #pragma once
 
 #include <cmath>
@@ -17,6 +17,7 @@ enum class FlowKind {
 struct BackgroundFlow {
   FlowKind kind = FlowKind::none;
   double rate = 1.0;
+  double walls = 0.0;  // factor of the surface velocities of the walls
 
   // Velocity at the point x.
   Complex velocity(Complex x) const {

@@ -26,9 +26,10 @@ class InterpolationEvaluation {
   InterpolationEvaluation(const Curve& curve, Side side);
 
   // Rows of the velocity at targets z (frame of the curve) in the fluid or on the curve. Near targets
-  // have an error of order h^7 once 6.6 h is less than the distance over which the flow varies: about
-  // 4e-5 of the density on a disc at N = 64, 2e-8 at N = 256. The segment of length 6.6 h that leaves
-  // x0 along the normal must not cross this curve again, or the error is O(1).
+  // have an error of order h^7 once 6.6 h is less than the distance over which the flow varies: for
+  // one to four waves on a disc 2e-6 to 1e-3 of the density at N = 64, 6e-10 to 6e-7 at N = 256. The
+  // segment of length 6.6 h that leaves x0 along the normal must not cross this curve again, or the
+  // error is O(1).
   // Cost O(N^1.5 log N) per target.
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 

@@ -34,10 +34,13 @@ void add_wrench(std::vector<Wrench>& wrenches, const ContactConstraint& c, const
   wrenches[c.b].force += factor * force.centre_b, wrenches[c.b].torque += factor * force.angle_b;
 }
 
-// Rate of the constraint's value when the bodies move with `velocity`.
+// Rate of a value with the given gradient for the bodies of a constraint when they move with `velocity`.
+double rate(const ContactConstraint& c, const GapGradient& gradient, const std::vector<RigidVelocity>& velocity) {
+  return dot(gradient.centre_a, velocity[c.a].velocity) + gradient.angle_a * velocity[c.a].omega +
+         dot(gradient.centre_b, velocity[c.b].velocity) + gradient.angle_b * velocity[c.b].omega;
+}
 double rate(const ContactConstraint& c, const std::vector<RigidVelocity>& velocity) {
-  return dot(c.gradient.centre_a, velocity[c.a].velocity) + c.gradient.angle_a * velocity[c.a].omega +
-         dot(c.gradient.centre_b, velocity[c.b].velocity) + c.gradient.angle_b * velocity[c.b].omega;
+  return rate(c, c.gradient, velocity);
 }
 
 std::string name(const ContactConstraint& c) {
@@ -93,8 +96,29 @@ class Iteration {
     for (Candidate& c : candidates_) c.committed += c.multiplier, c.multiplier = 0.0;
   }
 
-  // One LCP for the multipliers; its failure, if any.
-  std::string solve() {
+  // What is wrong with the mobilities: a fluid's are positive, and symmetric between forces (to a tenth, what
+  // columns of few nodes or of an approximation may miss).
+  std::string unphysical(bool check_symmetry) const {
+    const auto m = static_cast<Eigen::Index>(candidates_.size());
+    Matrix M(m, m);
+    for (Eigen::Index l = 0; l < m; ++l)
+      for (Eigen::Index k = 0; k < m; ++k)
+        M(l, k) = rate(candidates_[l].constraint, candidates_[l].force, candidates_[k].column.velocity);
+    for (Eigen::Index l = 0; l < m; ++l)
+      if (!(M(l, l) > 0.0))
+        return concat("the contact force between ", name(candidates_[l].constraint), " does not part them (mobility ",
+                      M(l, l), "): the points per body do not resolve so small a gap; try refine = near");
+    for (Eigen::Index l = 0; check_symmetry && l < m; ++l)
+      for (Eigen::Index k = 0; k < l; ++k)
+        if (std::abs(M(l, k) - M(k, l)) > 0.1 * std::sqrt(M(l, l) * M(k, k)))
+          return concat("the contacts of ", name(candidates_[l].constraint), " and of ", name(candidates_[k].constraint),
+                        " act on each other by mobilities of ", M(l, k), " and ", M(k, l),
+                        ", which should be equal: the points per body do not resolve so small a gap; try refine = near");
+    return {};
+  }
+
+  // The columns of all contacts, and one LCP for the multipliers; its failure, if any.
+  std::string solve(const NcpOptions& options, bool& unresolved) {
     const Eigen::Index m = static_cast<Eigen::Index>(candidates_.size());
     Matrix B(m, m);
     Vector b(m);
@@ -110,14 +134,18 @@ class Iteration {
       add_wrench(unit, c.constraint, c.force, 1.0);
       c.column = mobility_.column(unit);
     }
+    if (const std::string problem = unphysical(options.check_mobility && !mobility_.response); !problem.empty()) {
+      unresolved = true;
+      return problem;
+    }
     for (Eigen::Index l = 0; l < m; ++l)
       for (Eigen::Index k = 0; k < m; ++k)
         B(l, k) = dt_ * rate(candidates_[l].constraint, candidates_[k].column.velocity);
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(B(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint),
-                      " does not part them (mobility ", B(l, l) / dt_,
-                      "): the step takes them past each other, or the points per body do not resolve so small a gap");
+                      " does not part them at the end of the step (mobility ", B(l, l) / dt_,
+                      "): the step takes them past each other; try a smaller time_step");
     const LcpResult lcp = solve_lcp(B, b);
     if (!lcp.solved) return concat(lcp.message, " Worst: ", name(worst()->constraint));
     for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
@@ -215,7 +243,7 @@ NcpResult resolve_contacts(const Suspension& start, const Response& contact_free
                               " iterations; worst: ", name(worst->constraint));
     else {
       if (result.iterations >= options.increments_after) iteration.commit();
-      result.failure = iteration.solve();
+      result.failure = iteration.solve(options, result.unresolved);
     }
     if (!result.failure.empty()) return result;
     ++result.iterations;

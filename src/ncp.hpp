@@ -36,11 +36,13 @@ struct NcpOptions {
   // From this iteration on keep the forces found and solve for non-negative additions to them: ends the cycles
   // of a value that jumps. For constraints that count as met once they are open (stiv).
   int increments_after = std::numeric_limits<int>::max();
+  bool check_mobility = false;  // columns for symmetry: the forces are to be gradients at the start of the step
 };
 
 struct NcpResult {
   bool solved = false;
   std::string failure;                 // empty when solved
+  bool unresolved = false;             // failed for mobilities that are not those of a fluid: too few nodes
   int iterations = 0;                  // LCPs solved
   std::vector<ActiveContact> contacts; // those with a positive multiplier
   std::vector<Pose> poses;             // at the end of the step

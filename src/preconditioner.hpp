@@ -1,6 +1,7 @@
 // Right preconditioners for the equations of a suspension.
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -12,17 +13,21 @@ namespace stokes {
 
 enum class PreconditionerKind {
   none,
-  block,  // D^-1: each body's own block, by the inverse that its shape carries
+  block,  // D^-1: each boundary's own block, by the inverse that its shape carries
   pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1): their 2 x 2 block systems exactly
 };
 
 class Preconditioner {
  public:
-  // `pairs`: the close pairs (i, j), for PreconditionerKind::pair. Cost O(N^3) per pair.
-  Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& bodies,
-                 const std::vector<std::pair<int, int>>& pairs);
+  // The operator's block (target, source), densities in their frames: 2 N_target x 2 N_source.
+  using BlockFunction = std::function<Matrix(int target, int source)>;
 
-  // out = M in, densities of all bodies in their frames. Independent of the number of threads.
+  // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Cost per pair O(N_i N_j^2 + N_i^3),
+  // N_i the smaller number of nodes.
+  Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
+                 const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
+
+  // out = M in, densities of all boundaries in their frames. Independent of the number of threads.
   void apply(const Vector& in, Vector& out) const;
 
  private:
@@ -35,7 +40,7 @@ class Preconditioner {
   };
 
   PreconditionerKind kind_;
-  const std::vector<PlacedShape>& bodies_;
+  const std::vector<PlacedShape>& boundaries_;
   std::vector<Pair> pairs_;
 };
 

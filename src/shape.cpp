@@ -28,15 +28,73 @@ double Shape::perimeter() const {
   return 4.0 * pi * (sum - factor * (x * x - y * y)) / (x + y);
 }
 
-Curve Shape::curve(int points) const {
-  ComplexVector position(points), first(points), second(points);
-  for (int k = 0; k < points; ++k) {
-    const double alpha = 2.0 * pi * k / points, c = std::cos(alpha), s = std::sin(alpha);
+namespace {
+
+// The map s(alpha) and its first two derivatives.
+struct ParameterMap {
+  double s, first, second;
+};
+
+ParameterMap parameter_map(double alpha, const std::vector<NodeCluster>& clusters) {
+  ParameterMap map{alpha, 1.0, 0.0};
+  for (const NodeCluster& c : clusters) {
+    const double r = (c.density - 1.0) / (c.density + 1.0);
+    const auto integral = [r](double x) { return x + 2.0 * std::atan2(r * std::sin(x), 1.0 - r * std::cos(x)); };
+    const double x = alpha - c.alpha, q = 1.0 - 2.0 * r * std::cos(x) + r * r;
+    map.s += integral(x) - integral(-c.alpha);
+    map.first += (1.0 - r * r) / q;
+    map.second -= (1.0 - r * r) * 2.0 * r * std::sin(x) / (q * q);
+  }
+  const double scale = 1.0 / (1.0 + static_cast<double>(clusters.size()));
+  return {scale * map.s, scale * map.first, scale * map.second};
+}
+
+}  // namespace
+
+double Shape::position_of(double alpha, const Discretisation& nodes) {
+  return nodes.clusters.empty() ? alpha : parameter_map(alpha, nodes.clusters).s;
+}
+
+// Newton's method from the node before, kept between bounds that it narrows; s increases with alpha.
+std::vector<double> Shape::parameters(const Discretisation& nodes) {
+  const int n = nodes.size();
+  std::vector<double> alpha(n);
+  for (int k = 0; k < n; ++k) {
+    const double s = 2.0 * pi * k / n;
+    alpha[k] = s;
+    if (nodes.clusters.empty() || k == 0) continue;
+    double low = alpha[k - 1], high = 2.0 * pi, x = low;
+    for (int iteration = 0; iteration < 100; ++iteration) {
+      const ParameterMap map = parameter_map(x, nodes.clusters);
+      (map.s < s ? low : high) = x;
+      const double step = (s - map.s) / map.first;
+      const double next = x + step > low && x + step < high ? x + step : 0.5 * (low + high);
+      const bool done = std::abs(next - x) <= 1e-15 * (1.0 + next);
+      x = next;
+      if (done) break;
+    }
+    alpha[k] = x;
+  }
+  return alpha;
+}
+
+Curve Shape::curve(const Discretisation& nodes) const {
+  const int n = nodes.size();
+  ComplexVector position(n), first(n), second(n);
+  const std::vector<double> parameter = parameters(nodes);
+  for (int k = 0; k < n; ++k) {
+    const double c = std::cos(parameter[k]), s = std::sin(parameter[k]);
     position[k] = {a * c, b * s};
     first[k] = {-a * s, b * c};
     second[k] = -position[k];
+    if (nodes.clusters.empty()) continue;
+    const ParameterMap map = parameter_map(parameter[k], nodes.clusters);
+    first[k] /= map.first;
+    second[k] = (second[k] / map.first - first[k] * map.second / map.first) / map.first;
   }
   return Curve(std::move(position), std::move(first), second);
 }
+
+Curve Shape::curve(int points) const { return curve(Discretisation{points, {}}); }
 
 }  // namespace stokes

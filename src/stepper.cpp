@@ -16,6 +16,24 @@ namespace {
 // carries vertices across corners.
 constexpr int stiv_increments_after = 8;
 
+// Densities that the next one is extrapolated from: quadratic, which on Taylor-Green flow saves twice as many
+// iterations as starting from the previous one.
+constexpr std::size_t extrapolation_points = 3;
+constexpr double finest = 4.0;  // largest fineness of clusters
+
+// A density on other nodes, boundary by boundary.
+ComplexVector moved(const StepperMemory::Density& density, const std::vector<Discretisation>& nodes) {
+  Eigen::Index size = 0, from = 0, to = 0;
+  for (const Discretisation& d : nodes) size += d.size();
+  ComplexVector result(size);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Eigen::Index old = density.nodes[i].size();
+    result.segment(to, nodes[i].size()) = move_density(density.value.segment(from, old), density.nodes[i], nodes[i]);
+    from += old, to += nodes[i].size();
+  }
+  return result;
+}
+
 bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {
   return std::equal(u.begin(), u.end(), v.begin(), v.end(),
                     [](const Wrench& a, const Wrench& b) { return a.force == b.force && a.torque == b.torque; });
@@ -33,34 +51,78 @@ int Stepper::shape_count() const {
   return static_cast<int>(distinct.size());
 }
 
+Stepper::Configuration::Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes,
+                                      double driving_, double fineness_)
+    : driving(driving_), fineness(fineness_),
+      nodes(options.refine == Refine::near ? refined_nodes(bodies, options.points_per_body, fineness)
+                                           : equal_nodes(bodies, options.points_per_body)),
+      system(bodies, nodes, shapes, options.stokes) {
+  if (bodies.container) nodes.push_back({bodies.container->points, {}});
+}
+
+BackgroundFlow Stepper::driven(double driving) const {
+  return {options_.flow.kind, driving * options_.flow.rate, driving};
+}
+
+// Polynomial through the latest background densities, in the path through configurations: with it the flow may turn
+// back, and the first step back starts from what was there. Densities live in the body frames, so they are already
+// turned with their bodies.
+ComplexVector Stepper::extrapolated_density(const Configuration& now) const {
+  std::vector<const StepperMemory::Density*> known;
+  for (auto d = memory_.background.rbegin(); d != memory_.background.rend(); ++d) {
+    const auto close = [&d](const auto* k) { return std::abs(k->path - d->path) < 1e-9 * std::abs(d->path); };
+    if (std::none_of(known.begin(), known.end(), close)) known.push_back(&*d);
+  }
+  ComplexVector guess = ComplexVector::Zero(now.system.node_count());
+  for (const auto* d : known) {
+    double weight = now.driving;
+    for (const auto* other : known)
+      if (other != d) weight *= (memory_.path - other->path) / (d->path - other->path);
+    guess += weight * moved(*d, now.nodes);
+  }
+  return guess;
+}
+
 Stepper::Configuration& Stepper::configuration(double driving) {
-  if (now_ && now_->driving == driving) return *now_;
-  now_.emplace(bodies_, options_, shapes_, driving);
+  if (now_ && now_->driving == driving && now_->fineness == fineness_) return *now_;
+  const int spent = now_ && now_->driving == driving ? now_->gmres_iterations : 0;
+  now_.emplace(bodies_, options_, shapes_, driving, fineness_);
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
-  const BackgroundFlow flow{options_.flow.kind, driving * options_.flow.rate};
-  // Densities live in the body frames, so the previous ones are already turned with their bodies.
   StokesSolution solution;
   try {
-    solution = options_.coupling == Coupling::local && lagged_.size() > 0
-                   ? now_->system.sweep(flow, external, lagged_)
-                   : now_->system.solve(flow, external, driving * guess_);
+    solution = options_.coupling == Coupling::local && memory_.total.value.size() > 0
+                   ? now_->system.sweep(driven(driving), external, moved(memory_.total, now_->nodes))
+                   : now_->system.solve(driven(driving), external, extrapolated_density(*now_));
   } catch (...) {
     now_.reset();  // a configuration without its velocities is none
     throw;
   }
-  now_->gmres_iterations = solution.iterations;
+  now_->gmres_iterations = spent + solution.iterations;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
+}
+
+void Stepper::restore(const std::vector<Pose>& poses, StepperMemory memory) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = poses[i];
+  memory_ = std::move(memory);
+  now_.reset();
 }
 
 Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches) {
   for (const auto& [known, response] : now.columns)
     if (same(known, wrenches)) return response;
-  StokesSolution solution = now.system.solve({}, wrenches);
+  const bool iterate = options_.lcp_matrix != LcpMatrix::full;  // near the one before
+  StokesSolution solution = now.system.solve({}, wrenches, iterate ? now.latest_contact : ComplexVector());
   now.gmres_iterations += solution.iterations;
+  if (iterate) now.latest_contact = solution.density;
   now.columns.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
   return now.columns.back().second;
+}
+
+Response Stepper::respond_in_pairs(const Configuration& now, const std::vector<Wrench>& wrenches) const {
+  StokesSolution solution = now.system.approximate({}, wrenches);
+  return {std::move(solution.velocity), std::move(solution.density)};
 }
 
 // No body feels the forces on another; the densities answer a rigid motion with nothing.
@@ -73,15 +135,19 @@ Response Stepper::respond_alone(const Configuration& now, const std::vector<Wren
 
 NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp) {
   const MobilityFunction full = [&](const std::vector<Wrench>& w) { return respond(now, w); };
+  const MobilityFunction in_pairs = [&](const std::vector<Wrench>& w) { return respond_in_pairs(now, w); };
   const MobilityFunction alone = [&](const std::vector<Wrench>& w) { return respond_alone(now, w); };
   ContactMobility mobility{full, {}};
   if (options_.coupling == Coupling::local)
     mobility = {alone, {}};
   else if (options_.lcp_matrix == LcpMatrix::self)
     mobility = {alone, full};
+  else if (options_.lcp_matrix == LcpMatrix::pair)
+    mobility = {in_pairs, full};
   const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
     NcpOptions options = ncp;
     if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;
+    options.check_mobility = options_.contact == ContactModel::gap && options_.coupling == Coupling::global;
     return resolve_contacts(bodies_, now.contact_free, dt, constraints, mobility, options, balance);
   };
   switch (options_.contact) {
@@ -100,8 +166,15 @@ NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp)
 }
 
 StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
-  Configuration& now = configuration(driving);
-  NcpResult result = resolve(now, dt, ncp);
+  NcpResult result = resolve(configuration(driving), dt, ncp);
+  while (result.unresolved && options_.refine == Refine::near && fineness_ < finest) {
+    fineness_ *= 2.0;
+    const int spent = result.iterations + now_->ncp_iterations;
+    Configuration& finer = configuration(driving);
+    finer.ncp_iterations = spent;
+    result = resolve(finer, dt, ncp);
+  }
+  Configuration& now = *now_;
   now.ncp_iterations += result.iterations;
 
   StepOutcome outcome;
@@ -110,16 +183,22 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   outcome.dt = dt;
   outcome.gmres_iterations = now.gmres_iterations;
   outcome.ncp_iterations = now.ncp_iterations;
-  if (!result.solved) return outcome;
+  if (result.solved) accept(now, dt, result, outcome);
+  return outcome;
+}
+
+void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome) {
   outcome.contacts = std::move(result.contacts);
   outcome.contact_wrench = std::move(result.wrenches);
   outcome.density_tail = now.system.density_tail(result.motion.density);
-  lagged_ = std::move(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
-  guess_ = driving * now.contact_free.density;
+  memory_.background.push_back({memory_.path, now.nodes, now.driving * now.contact_free.density});
+  if (memory_.background.size() > extrapolation_points) memory_.background.erase(memory_.background.begin());
+  memory_.total = {memory_.path, now.nodes, std::move(result.motion.density)};
+  memory_.path += now.driving * dt;
   now_.reset();
-  return outcome;
+  fineness_ = 1.0;
 }
 
 double Stepper::geometric_step_limit(double driving) {

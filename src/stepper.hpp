@@ -11,6 +11,7 @@
 #include "contact.hpp"
 #include "flow.hpp"
 #include "ncp.hpp"
+#include "refinement.hpp"
 #include "stiv.hpp"
 #include "stokes_system.hpp"
 
@@ -24,7 +25,9 @@ enum class Coupling {
 
 // The mobility in the matrix of the linear complementarity problems.
 enum class LcpMatrix {
-  full,  // the one that moves the bodies
+  full,  // the one that moves the bodies: a Stokes solve for each contact
+  pair,  // one application of the preconditioner for each contact, exact for two bodies by themselves; every
+         // iterate is then moved with the full mobility: one Stokes solve for each iteration
   self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
          // Coupling::local
 };
@@ -32,6 +35,7 @@ enum class LcpMatrix {
 struct StepperOptions {
   BackgroundFlow flow;
   int points_per_body = 32;
+  Refine refine = Refine::none;
   StokesOptions stokes;
   NearSingular near_singular = NearSingular::cauchy;
   ContactModel contact = ContactModel::gap;
@@ -55,17 +59,36 @@ struct StepOutcome {
   double density_tail = 0.0;
 };
 
+// What a step leaves to later ones beside the bodies: densities, in the body frames, from which the next solve
+// starts or, locally coupled, which it takes for the present ones.
+struct StepperMemory {
+  struct Density {
+    double path = 0.0;                  // where on the way through configurations: sum of driving times dt
+    std::vector<Discretisation> nodes;  // one per boundary
+    ComplexVector value;
+  };
+  double path = 0.0;
+  std::vector<Density> background;  // of the latest steps per unit of driving, the newest last
+  Density total;                    // of the latest step, contact forces included
+};
+
 class Stepper {
  public:
   Stepper(Suspension bodies, const StepperOptions& options);
 
   const Suspension& bodies() const { return bodies_; }
+  const StepperMemory& memory() const { return memory_; }
   int factorisations() const { return shapes_.factorisations(); }
   int shape_count() const;
 
-  // Tries a step of size dt with the background flow multiplied by `driving`. Accepted, it moves the
+  // Takes over where another stepper of the same bodies and options was.
+  void restore(const std::vector<Pose>& poses, StepperMemory memory);
+
+  // Tries a step of size dt with everything that drives the fluid multiplied by `driving`. Accepted, it moves the
   // bodies; otherwise they stay as they are, bit for bit, and another attempt reuses what was solved.
-  // NumericalError when GMRES fails.
+  // A contact force that does not part its bodies, or mobilities that are not symmetric, mean nodes too sparse for
+  // the gap: with Refine::near the configuration is solved again with twice and four times the density of its
+  // clusters before the step fails. NumericalError when GMRES fails.
   StepOutcome attempt(double dt, double driving, const NcpOptions& ncp);
 
   // The largest step in which, by the contact-free velocities, no body turns by more than 0.2 and no two
@@ -75,26 +98,32 @@ class Stepper {
  private:
   // What is known of the current configuration.
   struct Configuration {
-    Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes, double driving_)
-        : system(bodies, options.points_per_body, shapes, options.stokes), driving(driving_) {}
+    Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes, double driving_,
+                  double fineness_);
 
+    double driving, fineness;
+    std::vector<Discretisation> nodes;
     StokesSystem system;
-    double driving;
     Response contact_free;
+    ComplexVector latest_contact;  // density of the last answer to contact forces
     int gmres_iterations = 0, ncp_iterations = 0;
     std::vector<std::pair<std::vector<Wrench>, Response>> columns;  // answered mobility problems
   };
   Configuration& configuration(double driving);
+  BackgroundFlow driven(double driving) const;
+  ComplexVector extrapolated_density(const Configuration& now) const;
   Response respond(Configuration& now, const std::vector<Wrench>& wrenches);
-  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
+  Response respond_in_pairs(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
+  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
+  void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);
 
   Suspension bodies_;
   StepperOptions options_;
   ShapeCache shapes_;
   std::optional<Configuration> now_;
-  ComplexVector guess_;   // background density of the previous step, per unit of driving
-  ComplexVector lagged_;  // total density of the previous step
+  double fineness_ = 1.0;  // of the clusters of this configuration
+  StepperMemory memory_;
 };
 
 }  // namespace stokes

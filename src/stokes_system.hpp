@@ -1,11 +1,13 @@
 // The completed double-layer equations of a suspension at one configuration, and their solution.
 //
-// Unknown: one density per body, kept in the BODY frame, so that a shape's preconditioner block serves
-// every body of that shape unrotated and a density stays attached to its material nodes from one
-// configuration to the next. On body j, with all forces and torques given,
+// Unknown: one density per boundary (the bodies in order, then the container), kept in the BODY frame, so that a
+// shape's preconditioner block serves every body of that shape unrotated and a density stays attached to its
+// material nodes from one configuration to the next. On a free body j, forces and torques given,
 //   (-1/2 + D) eta - (1/2) B G^-1 B_w^T eta = -u_inf - Sum_k (completion flow of F_k, L_k),
 //   (U_j, omega_j) = (1/2) G^-1 B_w^T eta_j
-// (the rigid velocities eliminated; B, G, B_w: discrete_shape.hpp). The operator maps a rigid density to
+// (the rigid velocities eliminated; B, G, B_w and the equations of the other kinds of boundaries:
+// discrete_shape.hpp). Fixed bodies add the completion flows of their own, unknown, force and torque to every row;
+// the equation on walls has the surface velocity on the right. The operator maps a rigid density of a free body to
 // -1/2 of itself and a rigid density makes no velocity in the fluid, so the rigid part of the right-hand
 // side is solved exactly and GMRES sees only the rest: the tolerance is relative to the straining part
 // of the data and does not degrade with a body's distance from the origin.
@@ -17,47 +19,71 @@
 #include "direct_sum.hpp"
 #include "discrete_shape.hpp"
 #include "flow.hpp"
+#include "fmm.hpp"
 #include "preconditioner.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
 
+// How the double layer of all nodes on all nodes is summed.
+enum class Summation {
+  automatic,  // the fast multipole method from fmm_crossover nodes on
+  direct,
+  fmm,  // to a tenth of the tolerance of GMRES
+};
+
 struct StokesOptions {
   double gmres_tolerance = 1e-8;  // relative, on the true residual
   int gmres_max_iterations = 1000;
   PreconditionerKind preconditioner = PreconditionerKind::pair;
+  Summation summation = Summation::automatic;
 };
 
 // Result of one solve. `density` carries no part along the rigid right-hand side; it is linear in the
 // data, so solutions superpose.
 struct StokesSolution {
-  ComplexVector density;                // all bodies' nodes in order, body frames
-  std::vector<RigidVelocity> velocity;  // one per body, laboratory frame
+  ComplexVector density;                // all boundaries' nodes in order, body frames
+  std::vector<RigidVelocity> velocity;  // one per body, laboratory frame; zero for fixed ones
+  std::vector<Wrench> reaction;         // of fixed bodies on the fluid, about their centres; zero for free ones
   int iterations = 0;                   // GMRES iterations
   double residual = 0.0;                // relative true residual
 };
+
+// Nodes of every body when all have `points`, or their own number.
+std::vector<Discretisation> equal_nodes(const Suspension& bodies, int points);
 
 class StokesSystem {
  public:
   StokesSystem(const StokesSystem&) = delete;
   StokesSystem& operator=(const StokesSystem&) = delete;
 
-  // Discretises every body with `points` nodes. `shapes` must outlive the system. Cost O(N) plus the
-  // close-evaluation blocks of bodies nearer than a few point spacings.
-  StokesSystem(const Suspension& bodies, int points, ShapeCache& shapes, const StokesOptions& options);
+  // Discretises every body with its nodes, or all with `points`, and the container. Cost O(N) plus the
+  // close-evaluation blocks of boundaries nearer than a few point spacings.
+  StokesSystem(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes,
+               const StokesOptions& options);
+  StokesSystem(const Suspension& bodies, int points, ShapeCache& shapes, const StokesOptions& options)
+      : StokesSystem(bodies, equal_nodes(bodies, points), shapes, options) {}
 
-  int body_count() const { return static_cast<int>(blocks_.size()); }
+  int body_count() const { return static_cast<int>(surfaces_.size()) - (has_container() ? 1 : 0); }
   int node_count() const { return nodes_.size(); }
+  const std::vector<PlacedShape>& boundaries() const { return boundaries_; }
 
-  // Rigid velocities and densities for a background flow and given forces and torques (one per body;
-  // empty: none). `guess`: a density to start from (empty: zero). NumericalError when GMRES fails.
+  // Rigid velocities and densities for a background flow and given forces and torques (one per body, not read for
+  // fixed ones; empty: none). `guess`: a density to start from (empty: zero). NumericalError when GMRES fails.
   StokesSolution solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& guess = {}) const;
 
-  // One block-Jacobi sweep of the same equations: each body's own block is solved for, the double layers of
+  // One block-Jacobi sweep of the same equations: each boundary's own block is solved for, the double layers of
   // the others are taken from `lagged` (a density of this system; empty: zero). Locally implicit stepping.
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& lagged) const;
+
+  // The same by one application of the preconditioner: exact for a pair of bodies that are close to each other
+  // and far from others.
+  StokesSolution approximate(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
+
+  // For any velocity on the boundaries (all nodes, laboratory frame) in place of that of the flow and the walls.
+  StokesSolution solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess = {}) const;
 
   // Fluid velocity at points in the fluid, accurate up to the boundaries.
   ComplexVector velocity(const std::vector<Complex>& points, const ComplexVector& density,
@@ -74,24 +100,36 @@ class StokesSystem {
  private:
   struct NearBlock {  // correction of the trapezoid sum from `source` at some nodes of `target`
     int target, source;
-    std::vector<int> rows;  // node numbers within the target body
+    std::vector<int> rows;  // node numbers within the target
     Matrix matrix;          // 2 rows x 2N, frames of source and target
   };
 
+  void place(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes);
+  bool has_container() const;
   void find_near_blocks();
+  void find_completion_columns();
+  std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;
+  Matrix interaction(int target, int source) const;
   ComplexVector in_laboratory(const Complex* density) const;
+  ComplexVector double_layer(const Complex* density) const;
   void apply(const Vector& in, Vector& out) const;
-  Vector straining_data(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
-                        std::vector<RigidVelocity>& rigid) const;
+  void finish_boundary(int i, const Vector& in, Complex* result) const;
+  Vector straining_data(ComplexVector data, std::vector<RigidVelocity>& rigid) const;
   void finish(const Vector& density, StokesSolution& solution) const;
-  ComplexVector boundary_velocity(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
+  StokesSolution solve_data(ComplexVector data, const ComplexVector& guess) const;
+  ComplexVector boundary_data(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
   Complex driven_velocity(Complex x, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
 
   StokesOptions options_;
-  std::vector<PlacedShape> blocks_;  // one per body
+  std::vector<PlacedShape> boundaries_;  // bodies, then the container
+  std::vector<SurfaceMotion> surfaces_;  // of the boundaries
+  std::vector<int> fixed_;               // the fixed bodies
+  double log_length_ = 1.0;
   PointArray nodes_, weighted_normal_;
-  std::vector<NearBlock> near_;       // ordered by target body
-  std::vector<int> first_near_;       // near_ of body i: [first_near_[i], first_near_[i + 1])
+  std::vector<NearBlock> near_;      // ordered by target
+  std::vector<int> first_near_;      // near_ of boundary i: [first_near_[i], first_near_[i + 1])
+  Matrix completion_;                // flows of unit force and torque of the fixed bodies at all nodes, 2N x 3 fixed
+  std::optional<FmmPlan> fmm_;
   std::optional<Preconditioner> preconditioner_;
 };
 
