@@ -21,19 +21,6 @@ enum class Geometry {
   annulus,  // two concentric circular walls, centred at 0
 };
 
-// Where boundaries are close to each other.
-enum class Refine {
-  none,  // as many points as elsewhere
-  near,  // more of them
-};
-
-// How the flows of all boundaries are added up.
-enum class Summation {
-  automatic,  // by the number of points
-  direct,
-  fmm,
-};
-
 struct Case {
   std::filesystem::path file;  // the case file; not a key
 

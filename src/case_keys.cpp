@@ -25,7 +25,9 @@ Words<ContactModel> words_of(ContactModel) {
 Words<Coupling> words_of(Coupling) {
   return {{"global", Coupling::global}, {"local", Coupling::local}};
 }
-Words<LcpMatrix> words_of(LcpMatrix) { return {{"full", LcpMatrix::full}, {"self", LcpMatrix::self}}; }
+Words<LcpMatrix> words_of(LcpMatrix) {
+  return {{"full", LcpMatrix::full}, {"pair", LcpMatrix::pair}, {"self", LcpMatrix::self}};
+}
 Words<StivGradient> words_of(StivGradient) {
   return {{"full", StivGradient::full}, {"frozen", StivGradient::frozen}};
 }
@@ -177,8 +179,8 @@ const std::vector<CaseKey>& case_keys() {
       optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed"),
       optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
       optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
-      optional("refine", &Case::refine, "boundaries close to another; near: where they are closer than resolved"),
-      optional("summation", &Case::summation, "of the flows of all boundaries; auto: by their number of points"),
+      optional("refine", &Case::refine, "near: more nodes where bodies are too close for those they have"),
+      optional("summation", &Case::summation, "of the flows of all nodes; auto: direct for few of them"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
       optional("fields_at", &Case::fields_at, "increasing times at which the flow is written out"),
