@@ -358,11 +358,16 @@ StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector
   return solution;
 }
 
-StokesSolution StokesSystem::approximate(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const {
+StokesSolution StokesSystem::solve_apart(const std::vector<Wrench>& wrenches) const {
   StokesSolution solution;
-  const Vector rhs = straining_data(boundary_data(flow, wrenches), solution.velocity);
+  std::vector<int> moved;
+  for (int j = 0; j < body_count(); ++j)
+    if (!is_zero(wrench_of(wrenches, j))) moved.push_back(j);
+  const Vector rhs = straining_data(boundary_data({}, wrenches), solution.velocity);
+  for (int j = 0; j < body_count(); ++j)
+    if (is_zero(wrench_of(wrenches, j))) solution.velocity[j] = {};
   Vector density(rhs.size());
-  preconditioner_->apply(rhs, density);
+  preconditioner_->apply_to_some(moved, rhs, density);
   finish(density, solution);
   return solution;
 }

@@ -78,9 +78,9 @@ class StokesSystem {
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& lagged) const;
 
-  // The same by one application of the preconditioner: exact for a pair of bodies that are close to each other
-  // and far from others.
-  StokesSolution approximate(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
+  // The answer of the bodies that the wrenches act on as if there were no others; exact for two close bodies,
+  // those of a contact, otherwise each by itself. Others stay where they are.
+  StokesSolution solve_apart(const std::vector<Wrench>& wrenches) const;
 
   // For any velocity on the boundaries (all nodes, laboratory frame) in place of that of the flow and the walls.
   StokesSolution solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess = {}) const;
