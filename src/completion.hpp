@@ -6,6 +6,7 @@
 // the Stokeslet with its degenerate quadrupole and the rotlet.
 #pragma once
 
+#include "point_flow.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -14,6 +15,9 @@ namespace stokes {
 // centre) on an otherwise quiescent unbounded fluid; up to the constant velocity that the logarithm
 // leaves free.
 Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x);
+
+// The same with pressure, which vanishes at infinity, and velocity gradient. Accurate to round-off up to the body.
+PointFlow completion_flow(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x);
 
 // The rigid motion to which that flow reduces on the body's own boundary: the self-mobility of the body. In
 // two dimensions its translational part depends on the unit of length and may be negative.
