@@ -299,18 +299,13 @@ Vector StokesSystem::straining_data(ComplexVector data, std::vector<RigidVelocit
 void StokesSystem::finish(const Vector& density, StokesSolution& solution) const {
   solution.density.resize(node_count());
   as_real(solution.density) = density;
-  solution.reaction.assign(body_count(), {});
+  solution.reaction = reactions(solution.density);
   for (int j = 0; j < body_count(); ++j) {
     const PlacedShape& b = boundaries_[j];
-    const Complex* own = &solution.density[b.offset];
-    if (b.shape->kind == BoundaryKind::free) {
-      const RigidVelocity part = b.shape->rigid_part(own);
-      solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * part.velocity);
-      solution.velocity[j].omega += 0.5 * part.omega;
-    } else {
-      const Wrench w = b.shape->wrench(own);
-      solution.reaction[j] = {b.axis * w.force, w.torque};
-    }
+    if (b.shape->kind != BoundaryKind::free) continue;
+    const RigidVelocity part = b.shape->rigid_part(&solution.density[b.offset]);
+    solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * part.velocity);
+    solution.velocity[j].omega += 0.5 * part.omega;
   }
 }
 
