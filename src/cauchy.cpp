@@ -1,17 +1,12 @@
 #include "cauchy.hpp"
 
+#include <limits>
+
 #include "fourier.hpp"
 
 namespace stokes {
 
 namespace {
-
-Curve refine(const Curve& curve, int upsampling) {
-  if (upsampling == 1) return curve;
-  const int fine = curve.size() * upsampling;
-  const ComplexVector first = fourier_upsample(curve.derivative, fine);
-  return Curve(fourier_upsample(curve.position, fine), first, fourier_derivative(first));
-}
 
 // Columns are the images of the unit vectors under `map`.
 template <class Map>
@@ -46,33 +41,33 @@ ComplexMatrix boundary_values(const Curve& curve, const ComplexVector& step, Sid
 
 }  // namespace
 
-CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
-    : s_(side == Side::interior ? 1.0 : -1.0), fine_(refine(curve, upsampling)) {
-  const int n = curve.size(), fine = fine_.size();
-  step_ = fine_.derivative * (2.0 * pi / fine);
-  C_ = boundary_values(fine_, step_, side);
-  refine_ = matrix_of(n, [&](const ComplexVector& eta) { return fourier_upsample(eta, fine); }).real();
-  slope_ = matrix_of(n, [&](const ComplexVector& eta) -> ComplexVector {
-    return fourier_upsample(fourier_derivative(eta), fine).cwiseQuotient(fine_.derivative);
-  });
+Curve refined(const Curve& curve, int upsampling) {
+  if (upsampling == 1) return curve;
+  const int fine = curve.size() * upsampling;
+  const ComplexVector first = fourier_upsample(curve.derivative, fine);
+  return Curve(fourier_upsample(curve.position, fine), first, fourier_derivative(first));
 }
 
-// Weights of the value at z on the boundary values v_k. With j the nearest node, they are written for the
-// differences v_k - v_j, which keeps full accuracy as z approaches node j. On the exterior side the rule
-// is applied to zeta f, which tends to a constant at infinity.
-void CloseEvaluation::barycentric_weights(Complex z, Eigen::Ref<ComplexVector> weight) const {
-  const int n = fine_.size();
-  const bool exterior = s_ < 0.0;
+// With j the nearest node, the weights are written for the differences f_k - f_j, which keeps full accuracy as z
+// approaches node j. On the exterior side the rule is applied to zeta f, which tends to a constant at infinity.
+void barycentric_weights(const Curve& curve, Side side, Complex z, Eigen::Ref<ComplexVector> weight) {
+  const int n = curve.size();
+  const bool exterior = side == Side::exterior;
   int nearest = 0;
-  double smallest = std::norm(fine_.position[0] - z);
+  double smallest = std::norm(curve.position[0] - z);
   for (int k = 1; k < n; ++k) {
-    const double d = std::norm(fine_.position[k] - z);
+    const double d = std::norm(curve.position[k] - z);
     if (d < smallest) smallest = d, nearest = k;
+  }
+  if (smallest < std::numeric_limits<double>::min()) {  // on the node: its reciprocal would overflow
+    weight.setZero();
+    weight[nearest] = 1.0;
+    return;
   }
   Complex total = 0.0;
   for (int k = 0; k < n; ++k) {
-    const Complex zeta = fine_.position[k];
-    weight[k] = quotient(exterior ? quotient(step_[k], zeta) : step_[k], zeta - z);
+    const Complex zeta = curve.position[k];
+    weight[k] = quotient(exterior ? quotient(curve.derivative[k], zeta) : curve.derivative[k], zeta - z);
     total += weight[k];
   }
   const Complex scale = reciprocal(total);
@@ -84,7 +79,18 @@ void CloseEvaluation::barycentric_weights(Complex z, Eigen::Ref<ComplexVector> w
   }
   weight[nearest] = 1.0 - others;
   if (exterior)
-    for (int k = 0; k < n; ++k) weight[k] *= quotient(fine_.position[k], z);
+    for (int k = 0; k < n; ++k) weight[k] *= quotient(curve.position[k], z);
+}
+
+CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
+    : side_(side), fine_(refined(curve, upsampling)) {
+  const int n = curve.size(), fine = fine_.size();
+  step_ = fine_.derivative * (2.0 * pi / fine);
+  C_ = boundary_values(fine_, step_, side);
+  refine_ = matrix_of(n, [&](const ComplexVector& eta) { return fourier_upsample(eta, fine); }).real();
+  slope_ = matrix_of(n, [&](const ComplexVector& eta) -> ComplexVector {
+    return fourier_upsample(fourier_derivative(eta), fine).cwiseQuotient(fine_.derivative);
+  });
 }
 
 // Row of C[tau](z) on the fine values of tau. From six fine spacings on the trapezoid rule itself is exact to
@@ -98,7 +104,7 @@ ComplexMatrix CloseEvaluation::cauchy_rows(const std::vector<Complex>& z) const 
     double smallest = limit * limit;
     for (Eigen::Index k = 0; k < n; ++k) smallest = std::min(smallest, std::norm(fine_.position[k] - z[i]));
     if (smallest < limit * limit) {
-      barycentric_weights(z[i], weight.col(static_cast<Eigen::Index>(close.size())));
+      barycentric_weights(fine_, side_, z[i], weight.col(static_cast<Eigen::Index>(close.size())));
       close.push_back(i);
     } else {
       for (Eigen::Index k = 0; k < n; ++k)
@@ -111,11 +117,12 @@ ComplexMatrix CloseEvaluation::cauchy_rows(const std::vector<Complex>& z) const 
 }
 
 VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const {
+  const double s = side_ == Side::interior ? 1.0 : -1.0;
   ComplexMatrix rows = cauchy_rows(z);
-  const Matrix direct = -s_ * (rows.real() * refine_);
+  const Matrix direct = -s * (rows.real() * refine_);
   for (Eigen::Index k = 0; k < rows.cols(); ++k)
     for (Eigen::Index i = 0; i < rows.rows(); ++i) rows(i, k) *= std::conj(z[i] - fine_.position[k]);
-  return {direct, (0.5 * s_) * (rows * slope_).conjugate()};
+  return {direct, (0.5 * s) * (rows * slope_).conjugate()};
 }
 
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {

@@ -7,7 +7,7 @@
 //   u = -(s/2) ( C[eta] + conj(C[conj(eta)]) - conj(C[conj(z - zeta) eta']) ),
 // in which the near-cancellation of z conj(phi') with psi is already done. The boundary values of Cauchy
 // integrals are linear maps computed once per shape; at a target they are continued by barycentric
-// rational interpolation.
+// rational interpolation. Pressure and velocity gradient: close_flow.hpp.
 #pragma once
 
 #include <vector>
@@ -32,15 +32,14 @@ class CloseEvaluation {
   // aspect ratio 3, 3 beyond, gives spectral accuracy in the density alone. Cost and memory O(upsampling^2 N^2).
   CloseEvaluation(const Curve& curve, Side side, int upsampling);
 
-  // Rows of the velocity at targets z (same frame as the curve) in the fluid, at any distance > 0 from
-  // the curve. Cost O(upsampling^2 N^2) per target.
+  // Rows of the velocity at targets z (same frame as the curve) in the fluid or on the curve. Cost
+  // O(upsampling^2 N^2) per target.
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 
  private:
   ComplexMatrix cauchy_rows(const std::vector<Complex>& z) const;
-  void barycentric_weights(Complex z, Eigen::Ref<ComplexVector> weight) const;
 
-  double s_;
+  Side side_;
   Curve fine_;
   ComplexVector step_;   // zeta' 2 pi / N on the fine nodes
   ComplexMatrix C_;      // boundary values of C[tau] from the fine values of tau
@@ -50,5 +49,13 @@ class CloseEvaluation {
 
 // Rows of the plain trapezoid rule at the same targets: what the fast sums compute.
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z);
+
+// The curve at `upsampling` times as many nodes, its own among them.
+Curve refined(const Curve& curve, int upsampling);
+
+// Weights at z, in the fluid or on the curve, of the boundary values f_k of a function f that is analytic in
+// the fluid and, on the exterior side, vanishes at infinity: f(z) = Sum_k weight_k f_k. The curve is relative to a
+// point inside it. Cost O(N).
+void barycentric_weights(const Curve& curve, Side side, Complex z, Eigen::Ref<ComplexVector> weight);
 
 }  // namespace stokes

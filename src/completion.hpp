@@ -6,6 +6,7 @@
 // the Stokeslet with its degenerate quadrupole and the rotlet.
 #pragma once
 
+#include "point_flow.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -15,6 +16,10 @@ namespace stokes {
 // leaves free, which log_length, the unit of the distances in it, settles.
 Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
                             double log_length = 1.0);
+
+// The same with pressure, which vanishes at infinity, and velocity gradient. Accurate to round-off up to the body.
+PointFlow completion_flow(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
+                          double log_length = 1.0);
 
 // The rigid motion to which that flow reduces on the body's own boundary: the self-mobility of the body. In
 // two dimensions its translational part depends on the unit of length and may be negative.

@@ -9,11 +9,10 @@ namespace stokes {
 
 namespace {
 
+double aspect_ratio(const Shape& shape) { return shape.circumradius() / shape.inradius(); }
+
 // Factor by which the close evaluation oversamples; the bandwidth on an ellipse grows with its aspect.
-int upsampling_for(const Shape& shape) {
-  const double aspect = shape.circumradius() / shape.inradius();
-  return aspect <= 3.0 ? 2 : 3;
-}
+int upsampling_for(const Shape& shape) { return aspect_ratio(shape) <= 3.0 ? 2 : 3; }
 
 std::variant<CloseEvaluation, InterpolationEvaluation> close_evaluation(const Shape& shape, const Curve& curve,
                                                                        Side side, NearSingular near_singular) {
@@ -98,6 +97,18 @@ VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z) const {
   return std::visit([&z](const auto& close) { return close.velocity_rows(z); }, close_);
 }
 
+std::vector<PointFlow> DiscreteShape::close_flow(const ComplexVector& density, const std::vector<Complex>& z) const {
+  std::vector<PointFlow> result;
+  const auto evaluate = [&](const auto& flow) {
+    for (Complex point : z) result.push_back(flow.at(point));
+  };
+  if (const auto* interpolation = std::get_if<InterpolationEvaluation>(&close_))
+    evaluate(interpolation->flow(density));
+  else
+    evaluate(CloseFlow(curve, side(), flow_upsampling(aspect_ratio(shape), size()), density));
+  return result;
+}
+
 RigidVelocity DiscreteShape::rigid_part(const Complex* density) const {
   const Eigen::Map<const Vector> eta(reinterpret_cast<const double*>(density), 2 * size());
   const Eigen::Vector3d m = moments * eta;
@@ -117,6 +128,7 @@ double DiscreteShape::flux_part(const Complex* density) const {
 }
 
 double near_distance(const DiscreteShape& shape) { return 7.0 * shape.curve.max_spacing(); }
+double near_distance_of_gradient(const DiscreteShape& shape) { return 8.0 * shape.curve.max_spacing(); }
 
 std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z) {
   const double limit = near_distance(shape);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cauchy.hpp"
+#include "close_flow.hpp"
 #include "curve.hpp"
 #include "interpolation.hpp"
 #include "shape.hpp"
@@ -66,6 +67,10 @@ class DiscreteShape {
   // Rows of the double layer's velocity at points z (body frame) in the fluid, at any distance.
   VelocityRows close_rows(const std::vector<Complex>& z) const;
 
+  // Flow of the double layer of a density at points z (both in the body frame) in the fluid or on the boundary, at any
+  // distance: velocity, pressure and gradient. Cost O(N^2) and, per point, of O(N) (Cauchy) or O(N^1.5).
+  std::vector<PointFlow> close_flow(const ComplexVector& density, const std::vector<Complex>& z) const;
+
   Shape shape;
   Discretisation nodes;
   BoundaryKind kind;
@@ -97,6 +102,8 @@ struct PlacedShape {
 // the curve's largest point spacings. Beyond, it is exact to 1e-10 or better (on a disc the error decays
 // like (1 + d/a)^-N).
 double near_distance(const DiscreteShape& shape);
+// Pressure and gradient take one spacing more for the same 1e-10.
+double near_distance_of_gradient(const DiscreteShape& shape);
 std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z);
 
 // What the close evaluation adds to the plain trapezoid rule at points z.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base.hpp"
+#include "point_flow.hpp"
 
 namespace stokes {
 
@@ -29,6 +30,25 @@ struct BackgroundFlow {
       case FlowKind::none: break;
     }
     return 0.0;
+  }
+
+  // Velocity, its gradient and the pressure, which is 0 up to a constant. The Taylor-Green flow is held up by a
+  // body force that is no gradient, so that it has no pressure of a Stokes flow: 0 is a convention there, and the
+  // stress is that of the disturbance and the background's rate of strain.
+  PointFlow flow(Complex x) const {
+    PointFlow result{velocity(x)};
+    switch (kind) {
+      case FlowKind::shear: result.velocity_y = rate; break;
+      case FlowKind::extension: result.velocity_x = rate, result.velocity_y = Complex(0.0, -rate); break;
+      case FlowKind::taylor_green: {
+        const double along = rate * std::sin(x.real()) * std::sin(x.imag());
+        const double across = rate * std::cos(x.real()) * std::cos(x.imag());
+        result.velocity_x = {-along, -across}, result.velocity_y = {across, along};
+        break;
+      }
+      case FlowKind::none: break;
+    }
+    return result;
   }
 };
 

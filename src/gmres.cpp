@@ -1,11 +1,20 @@
 #include "gmres.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "threads.hpp"
 
 namespace stokes {
 
 namespace {
+
+// Entries of vectors that are worked on together: their sums are added in order, so that no result depends on the
+// number of threads, and a piece of w stays in the cache while all basis vectors pass.
+constexpr Eigen::Index piece = 8192;
+
+Eigen::Index piece_count(Eigen::Index size) { return (size + piece - 1) / piece; }
 
 // One cycle: the Krylov basis, the Hessenberg matrix reduced by Givens rotations, and its right-hand side.
 class Cycle {
@@ -27,12 +36,11 @@ class Cycle {
     const int k = size();
     Vector h = Vector::Zero(k + 2);
     const double before = w.norm();
-    for (int pass = 0; pass < 2; ++pass)  // the second pass restores orthogonality lost to cancellation
-      for (int i = 0; i <= k; ++i) {
-        const double c = basis_[i].dot(w);
-        w -= c * basis_[i];
-        h[i] += c;
-      }
+    for (int pass = 0; pass < 2; ++pass) {  // the second pass restores orthogonality lost to cancellation
+      const Vector c = products(w);
+      subtract(c, w);
+      h.head(k + 1) += c;
+    }
     h[k + 1] = w.norm();
     const bool independent = h[k + 1] > 1e-15 * before;
     for (int i = 0; i < k; ++i) rotate(h[i], h[i + 1], cosine_[i], sine_[i]);
@@ -57,11 +65,32 @@ class Cycle {
       y[i] = h_[i][i] != 0.0 ? sum / h_[i][i] : 0.0;
     }
     Vector v = Vector::Zero(basis_[0].size());
-    for (int i = 0; i < k; ++i) v += y[i] * basis_[i];
+    subtract(-y, v);
     return v;
   }
 
  private:
+  // <v_i, w> for all basis vectors.
+  Vector products(const Vector& w) const {
+    const auto count = static_cast<Eigen::Index>(basis_.size());
+    Matrix parts(count, piece_count(w.size()));
+    parallel_for_large(parts.cols(), w.size(), [&](long p) {
+      const Eigen::Index from = p * piece, size = std::min(piece, w.size() - from);
+      for (Eigen::Index i = 0; i < count; ++i) parts(i, p) = basis_[i].segment(from, size).dot(w.segment(from, size));
+    });
+    Vector sums = parts.col(0);
+    for (Eigen::Index p = 1; p < parts.cols(); ++p) sums += parts.col(p);
+    return sums;
+  }
+
+  // w -= Sum_i c_i v_i over the first basis vectors.
+  void subtract(const Vector& c, Vector& w) const {
+    parallel_for_large(piece_count(w.size()), w.size(), [&](long p) {
+      const Eigen::Index from = p * piece, size = std::min(piece, w.size() - from);
+      for (Eigen::Index i = 0; i < c.size(); ++i) w.segment(from, size) -= c[i] * basis_[i].segment(from, size);
+    });
+  }
+
   static void rotate(double& p, double& q, double c, double s) {
     const double t = c * p + s * q;
     q = -s * p + c * q;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "boundary_limits.hpp"
+#include "close_flow.hpp"
 #include "fourier.hpp"
 
 namespace stokes {
@@ -139,6 +141,24 @@ VelocityRows InterpolationEvaluation::velocity_rows(const std::vector<Complex>& 
     }
   }
   return rows;
+}
+
+InterpolationFlow::InterpolationFlow(const InterpolationEvaluation& close, const ComplexVector& density)
+    : close_(&close),
+      fine_density_(fourier_upsample(density, close.fine_.size())),
+      limits_(boundary_limits(close.curve_, close.side_, density)) {}
+
+PointFlow InterpolationFlow::at(Complex z) const {
+  const auto stencil = close_->stencil(z);
+  const int n = close_->curve_.size();
+  PointFlow flow;
+  for (int k = 0; k < InterpolationEvaluation::order; ++k)
+    flow += stencil.node_weight[k] * limits_[(stencil.first_node + k + n) % n];
+  for (std::size_t k = 0; k < stencil.points.size(); ++k) {
+    const double weight = stencil.point_weight[static_cast<Eigen::Index>(k)];
+    flow += weight * trapezoid_flow(close_->fine_, close_->side_, fine_density_, stencil.points[k]);
+  }
+  return flow;
 }
 
 }  // namespace stokes

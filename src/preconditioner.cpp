@@ -1,5 +1,7 @@
 #include "preconditioner.hpp"
 
+#include <algorithm>
+
 #include "threads.hpp"
 
 namespace stokes {
@@ -34,18 +36,35 @@ void Preconditioner::apply(const Vector& in, Vector& out) const {
   });
   out = own;
   // Each pair's change goes to a place of its own and is added in the order of the pairs.
-  std::vector<std::pair<Vector, Vector>> change(pairs_.size());
+  std::vector<std::pair<Vector, Vector>> changes(pairs_.size());
   parallel_for_large(static_cast<long>(pairs_.size()), in.size() / 2, [&](long n) {
-    const Pair& p = pairs_[n];
-    const auto d_i = own.segment(2 * boundaries_[p.i].offset, 2 * boundaries_[p.i].size());
-    const auto d_j = own.segment(2 * boundaries_[p.j].offset, 2 * boundaries_[p.j].size());
-    const Vector z_i = p.schur.solve(d_i - p.X * d_j);
-    change[n] = {z_i - d_i, -p.Y * z_i};
+    changes[n] = change(pairs_[n], own);
   });
   for (std::size_t n = 0; n < pairs_.size(); ++n) {
-    out.segment(2 * boundaries_[pairs_[n].i].offset, change[n].first.size()) += change[n].first;
-    out.segment(2 * boundaries_[pairs_[n].j].offset, change[n].second.size()) += change[n].second;
+    out.segment(2 * boundaries_[pairs_[n].i].offset, changes[n].first.size()) += changes[n].first;
+    out.segment(2 * boundaries_[pairs_[n].j].offset, changes[n].second.size()) += changes[n].second;
   }
+}
+
+// What solving a pair together adds to the solutions `own` of its members by themselves.
+std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const Vector& own) const {
+  const auto d_i = own.segment(2 * boundaries_[p.i].offset, 2 * boundaries_[p.i].size());
+  const auto d_j = own.segment(2 * boundaries_[p.j].offset, 2 * boundaries_[p.j].size());
+  const Vector z_i = p.schur.solve(d_i - p.X * d_j);
+  return {z_i - d_i, -p.Y * z_i};
+}
+
+void Preconditioner::apply_to_some(const std::vector<int>& boundaries, const Vector& in, Vector& out) const {
+  out = Vector::Zero(in.size());
+  const auto part = [this](auto& v, int i) { return v.segment(2 * boundaries_[i].offset, 2 * boundaries_[i].size()); };
+  for (const int i : boundaries) part(out, i).noalias() = boundaries_[i].shape->inverse * part(in, i);
+  if (boundaries.size() != 2) return;
+  for (const Pair& p : pairs_)
+    if (std::minmax(p.i, p.j) == std::minmax(boundaries[0], boundaries[1])) {
+      const auto [first, second] = change(p, out);
+      part(out, p.i) += first;
+      part(out, p.j) += second;
+    }
 }
 
 }  // namespace stokes

@@ -30,6 +30,10 @@ class Preconditioner {
   // out = M in, densities of all boundaries in their frames. Independent of the number of threads.
   void apply(const Vector& in, Vector& out) const;
 
+  // The same for a set of boundaries as if there were no others, zero elsewhere: exact for one boundary and for a
+  // close pair; of other sets each boundary by itself.
+  void apply_to_some(const std::vector<int>& boundaries, const Vector& in, Vector& out) const;
+
  private:
   // With X = D_i^-1 C_ij and Y = D_j^-1 C_ji the pair's system is [I X; Y I] z = [D_i^-1 r_i; D_j^-1 r_j], and
   // z_i = (I - X Y)^-1 (d_i - X d_j), z_j = d_j - Y z_i.
@@ -38,6 +42,8 @@ class Preconditioner {
     Matrix X, Y;
     Eigen::PartialPivLU<Matrix> schur;
   };
+
+  std::pair<Vector, Vector> change(const Pair& pair, const Vector& own) const;
 
   PreconditionerKind kind_;
   const std::vector<PlacedShape>& boundaries_;

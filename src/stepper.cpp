@@ -34,6 +34,17 @@ ComplexVector moved(const StepperMemory::Density& density, const std::vector<Dis
   return result;
 }
 
+// The first and the last body that a wrench acts on: those of a contact.
+std::pair<int, int> ends_of(const std::vector<Wrench>& wrenches) {
+  std::pair<int, int> ends{-1, -1};
+  for (std::size_t i = 0; i < wrenches.size(); ++i) {
+    if (wrenches[i].force == Complex(0.0) && wrenches[i].torque == 0.0) continue;
+    if (ends.first < 0) ends.first = static_cast<int>(i);
+    ends.second = static_cast<int>(i);
+  }
+  return ends;
+}
+
 bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {
   return std::equal(u.begin(), u.end(), v.begin(), v.end(),
                     [](const Wrench& a, const Wrench& b) { return a.force == b.force && a.torque == b.torque; });
@@ -64,18 +75,18 @@ BackgroundFlow Stepper::driven(double driving) const {
   return {options_.flow.kind, driving * options_.flow.rate, driving};
 }
 
-// Polynomial through the latest background densities, in the path through configurations: with it the flow may turn
-// back, and the first step back starts from what was there. Densities live in the body frames, so they are already
-// turned with their bodies.
-ComplexVector Stepper::extrapolated_density(const Configuration& now) const {
+// Polynomial through the densities of a history, in the path through configurations: with it the flow may turn back,
+// and the first step back starts from what was there. Densities live in the body frames, so they are already turned
+// with their bodies.
+ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& history, const Configuration& now) const {
   std::vector<const StepperMemory::Density*> known;
-  for (auto d = memory_.background.rbegin(); d != memory_.background.rend(); ++d) {
+  for (auto d = history.rbegin(); d != history.rend(); ++d) {
     const auto close = [&d](const auto* k) { return std::abs(k->path - d->path) < 1e-9 * std::abs(d->path); };
     if (std::none_of(known.begin(), known.end(), close)) known.push_back(&*d);
   }
   ComplexVector guess = ComplexVector::Zero(now.system.node_count());
   for (const auto* d : known) {
-    double weight = now.driving;
+    double weight = 1.0;
     for (const auto* other : known)
       if (other != d) weight *= (memory_.path - other->path) / (d->path - other->path);
     guess += weight * moved(*d, now.nodes);
@@ -93,7 +104,7 @@ Stepper::Configuration& Stepper::configuration(double driving) {
   try {
     solution = options_.coupling == Coupling::local && memory_.total.value.size() > 0
                    ? now_->system.sweep(driven(driving), external, moved(memory_.total, now_->nodes))
-                   : now_->system.solve(driven(driving), external, extrapolated_density(*now_));
+                   : now_->system.solve(driven(driving), external, driving * extrapolated(memory_.background, *now_));
   } catch (...) {
     now_.reset();  // a configuration without its velocities is none
     throw;
@@ -110,18 +121,23 @@ void Stepper::restore(const std::vector<Pose>& poses, StepperMemory memory) {
 }
 
 Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches) {
-  for (const auto& [known, response] : now.columns)
+  for (const auto& [known, response] : now.answers)
     if (same(known, wrenches)) return response;
-  const bool iterate = options_.lcp_matrix != LcpMatrix::full;  // near the one before
-  StokesSolution solution = now.system.solve({}, wrenches, iterate ? now.latest_contact : ComplexVector());
+  ComplexVector guess;
+  if (options_.lcp_matrix != LcpMatrix::full) {
+    guess = now.latest_contact;  // the forces of the iterate before
+  } else if (const auto past = memory_.contacts.find(ends_of(wrenches)); past != memory_.contacts.end()) {
+    guess = extrapolated(past->second, now);
+  }
+  StokesSolution solution = now.system.solve({}, wrenches, guess);
   now.gmres_iterations += solution.iterations;
-  if (iterate) now.latest_contact = solution.density;
-  now.columns.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
-  return now.columns.back().second;
+  now.latest_contact = solution.density;
+  now.answers.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
+  return now.answers.back().second;
 }
 
 Response Stepper::respond_in_pairs(const Configuration& now, const std::vector<Wrench>& wrenches) const {
-  StokesSolution solution = now.system.approximate({}, wrenches);
+  StokesSolution solution = now.system.solve_apart(wrenches);
   return {std::move(solution.velocity), std::move(solution.density)};
 }
 
@@ -187,15 +203,31 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   return outcome;
 }
 
+void Stepper::remember(Configuration& now, ComplexVector total) {
+  const auto append = [&](std::vector<StepperMemory::Density>& history, ComplexVector density) {
+    history.push_back({memory_.path, now.nodes, std::move(density)});
+    if (history.size() > extrapolation_points) history.erase(history.begin());
+  };
+  append(memory_.background, now.driving * now.contact_free.density);
+  std::map<std::pair<int, int>, std::vector<StepperMemory::Density>> contacts;
+  if (options_.lcp_matrix == LcpMatrix::full)
+    for (auto& [wrenches, response] : now.answers) {
+      auto& history = contacts[ends_of(wrenches)];
+      if (const auto past = memory_.contacts.find(ends_of(wrenches)); past != memory_.contacts.end() && history.empty())
+        history = std::move(past->second);
+      append(history, std::move(response.density));
+    }
+  memory_.contacts = std::move(contacts);
+  memory_.total = {memory_.path, now.nodes, std::move(total)};
+}
+
 void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome) {
   outcome.contacts = std::move(result.contacts);
   outcome.contact_wrench = std::move(result.wrenches);
   outcome.density_tail = now.system.density_tail(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
-  memory_.background.push_back({memory_.path, now.nodes, now.driving * now.contact_free.density});
-  if (memory_.background.size() > extrapolation_points) memory_.background.erase(memory_.background.begin());
-  memory_.total = {memory_.path, now.nodes, std::move(result.motion.density)};
+  remember(now, std::move(result.motion.density));
   memory_.path += now.driving * dt;
   now_.reset();
   fineness_ = 1.0;

@@ -3,6 +3,7 @@
 // separation.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,8 +27,8 @@ enum class Coupling {
 // The mobility in the matrix of the linear complementarity problems.
 enum class LcpMatrix {
   full,  // the one that moves the bodies: a Stokes solve for each contact
-  pair,  // one application of the preconditioner for each contact, exact for two bodies by themselves; every
-         // iterate is then moved with the full mobility: one Stokes solve for each iteration
+  pair,  // the two bodies of each contact as if there were no others; every iterate is then moved with the full
+         // mobility: one Stokes solve for each iteration
   self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
          // Coupling::local
 };
@@ -70,6 +71,8 @@ struct StepperMemory {
   double path = 0.0;
   std::vector<Density> background;  // of the latest steps per unit of driving, the newest last
   Density total;                    // of the latest step, contact forces included
+  // Answers to unit forces between the bodies that were in contact in the latest step, newest last.
+  std::map<std::pair<int, int>, std::vector<Density>> contacts;
 };
 
 class Stepper {
@@ -107,15 +110,16 @@ class Stepper {
     Response contact_free;
     ComplexVector latest_contact;  // density of the last answer to contact forces
     int gmres_iterations = 0, ncp_iterations = 0;
-    std::vector<std::pair<std::vector<Wrench>, Response>> columns;  // answered mobility problems
+    std::vector<std::pair<std::vector<Wrench>, Response>> answers;  // to forces and torques
   };
   Configuration& configuration(double driving);
   BackgroundFlow driven(double driving) const;
-  ComplexVector extrapolated_density(const Configuration& now) const;
+  ComplexVector extrapolated(const std::vector<StepperMemory::Density>& history, const Configuration& now) const;
   Response respond(Configuration& now, const std::vector<Wrench>& wrenches);
   Response respond_in_pairs(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
+  void remember(Configuration& now, ComplexVector total);
   void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);
 
   Suspension bodies_;

@@ -5,35 +5,102 @@
 #include "completion.hpp"
 #include "fourier.hpp"
 #include "stokes_system.hpp"
+#include "threads.hpp"
 
 namespace stokes {
 
-ComplexVector StokesSystem::velocity(const std::vector<Complex>& points, const ComplexVector& density,
-                                     const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const {
-  const int count = static_cast<int>(points.size());
+// The trapezoid sum of all nodes but those at the points themselves.
+std::vector<PointFlow> StokesSystem::summed_flow(const PointArray& points, const ComplexVector& lab_density) const {
+  FlowFields fields;
+  SourceStrengths strengths;
+  strengths.weighted_normal = &weighted_normal_, strengths.density = &lab_density;
+  if (fmm_ && points.size() >= fmm_crossover)
+    FmmPlan(nodes_, points, {1e-11}).evaluate(strengths, FlowOutput::gradient, fields);
+  else
+    direct_fields(points, nodes_, strengths, FlowOutput::gradient, fields);
+  std::vector<PointFlow> result(points.size());
+  for (int i = 0; i < points.size(); ++i)
+    result[i] = {fields.velocity[i], fields.pressure[i], fields.velocity_x[i], fields.velocity_y[i]};
+  return result;
+}
+
+std::vector<int> StokesSystem::near_points(const PlacedShape& b, const std::vector<Complex>& points) const {
+  const double limit = near_distance_of_gradient(*b.shape), radius = b.shape->shape.circumradius();
+  const bool inside = b.shape->kind == BoundaryKind::container;
+  std::vector<int> near;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    const double r = std::abs(points[i] - b.pose.centre);
+    if (inside ? r < radius - limit : r > radius + limit) continue;
+    for (int k = b.offset; k < b.offset + b.size(); ++k)
+      if (std::norm(points[i] - nodes_[k]) < limit * limit) {
+        near.push_back(i);
+        break;
+      }
+  }
+  return near;
+}
+
+std::vector<PointFlow> StokesSystem::flow(const std::vector<Complex>& points, const ComplexVector& density,
+                                          const BackgroundFlow& background, const std::vector<Wrench>& wrenches) const {
   PointArray targets;
-  targets.resize(count);
-  for (int i = 0; i < count; ++i) targets.set(i, points[i]);
-  ComplexVector u;
-  double_layer_velocity(targets, nodes_, weighted_normal_, in_laboratory(density.data()), u);
-  for (int i = 0; i < count; ++i) u[i] += driven_velocity(points[i], flow, wrenches);
+  targets.resize(static_cast<int>(points.size()));
+  for (int i = 0; i < targets.size(); ++i) targets.set(i, points[i]);
+  const ComplexVector lab = in_laboratory(density.data());
+  std::vector<PointFlow> result = summed_flow(targets, lab);
+  const std::vector<Wrench> reaction = reactions(density);
+  parallel_for_large(targets.size(), 100 * targets.size(), [&](long i) {
+    result[i] += background.flow(points[i]);
+    for (int j = 0; j < body_count(); ++j) {
+      const bool fixed = boundaries_[j].shape->kind == BoundaryKind::fixed;
+      const Wrench& w = fixed ? reaction[j] : wrenches.empty() ? Wrench{} : wrenches[j];
+      if (w.force != Complex(0.0) || w.torque != 0.0)
+        result[i] += completion_flow(boundaries_[j].shape->shape, boundaries_[j].pose, w, points[i], log_length_);
+    }
+  });
+  std::vector<std::vector<int>> near(boundaries_.size());
+  std::vector<std::vector<PointFlow>> change(boundaries_.size());
+  parallel_for(static_cast<long>(boundaries_.size()), [&](long j) {
+    const PlacedShape& b = boundaries_[j];
+    near[j] = near_points(b, points);
+    if (near[j].empty()) return;
+    std::vector<Complex> z;
+    for (int i : near[j]) z.push_back(b.local(points[i]));
+    change[j] = b.shape->close_flow(density.segment(b.offset, b.size()), z);
+    for (std::size_t r = 0; r < near[j].size(); ++r) {
+      change[j][r] = turned(change[j][r], b.axis);
+      for (int k = b.offset; k < b.offset + b.size(); ++k)
+        if (const Complex d = points[near[j][r]] - nodes_[k]; d != Complex(0.0))
+          change[j][r] -= stresslet_flow(d, weighted_normal_[k], lab[k]);
+    }
+  });
+  for (std::size_t j = 0; j < boundaries_.size(); ++j)
+    for (std::size_t r = 0; r < near[j].size(); ++r) result[near[j][r]] += change[j][r];
+  return result;
+}
+
+Wrench StokesSystem::container_wrench(const ComplexVector& density, const BackgroundFlow& background,
+                                      const std::vector<Wrench>& wrenches) const {
+  if (!has_container()) return {};
+  const PlacedShape& wall = boundaries_.back();
+  std::vector<Complex> points;
+  for (int k = 0; k < wall.size(); ++k) points.push_back(nodes_[wall.offset + k]);
+  const std::vector<PointFlow> flows = flow(points, density, background, wrenches);
+  Wrench total;
+  for (int k = 0; k < wall.size(); ++k) {
+    const Complex force = traction(stress(flows[k]), weighted_normal_[wall.offset + k]);
+    total.force += force;
+    total.torque += cross(points[k] - wall.pose.centre, force);
+  }
+  return total;
+}
+
+std::vector<Wrench> StokesSystem::reactions(const ComplexVector& density) const {
+  std::vector<Wrench> result(body_count());
   for (const int f : fixed_) {
-    const PlacedShape& b = boundaries_[f];
-    const Wrench w = b.shape->wrench(&density[b.offset]);
-    for (int i = 0; i < count; ++i)
-      u[i] += b.axis * completion_velocity(b.shape->shape, {}, w, b.local(points[i]), log_length_);
+    const Wrench w = boundaries_[f].shape->wrench(&density[boundaries_[f].offset]);
+    result[f] = {boundaries_[f].axis * w.force, w.torque};
   }
-  for (const PlacedShape& b : boundaries_) {
-    std::vector<Complex> z(count), close;
-    for (int i = 0; i < count; ++i) z[i] = b.local(points[i]);
-    const std::vector<int> rows = near_rows(*b.shape, z);
-    if (rows.empty()) continue;
-    for (int row : rows) close.push_back(z[row]);
-    const Vector correction = real_matrix(near_correction(*b.shape, close), b.axis) *
-                              as_real(density).segment(2 * b.offset, 2 * b.shape->size());
-    for (std::size_t r = 0; r < rows.size(); ++r) u[rows[r]] += Complex(correction[2 * r], correction[2 * r + 1]);
-  }
-  return u;
+  return result;
 }
 
 std::vector<Complex> StokesSystem::stresslets(const ComplexVector& density, const std::vector<Wrench>& wrenches) const {

@@ -299,18 +299,13 @@ Vector StokesSystem::straining_data(ComplexVector data, std::vector<RigidVelocit
 void StokesSystem::finish(const Vector& density, StokesSolution& solution) const {
   solution.density.resize(node_count());
   as_real(solution.density) = density;
-  solution.reaction.assign(body_count(), {});
+  solution.reaction = reactions(solution.density);
   for (int j = 0; j < body_count(); ++j) {
     const PlacedShape& b = boundaries_[j];
-    const Complex* own = &solution.density[b.offset];
-    if (b.shape->kind == BoundaryKind::free) {
-      const RigidVelocity part = b.shape->rigid_part(own);
-      solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * part.velocity);
-      solution.velocity[j].omega += 0.5 * part.omega;
-    } else {
-      const Wrench w = b.shape->wrench(own);
-      solution.reaction[j] = {b.axis * w.force, w.torque};
-    }
+    if (b.shape->kind != BoundaryKind::free) continue;
+    const RigidVelocity part = b.shape->rigid_part(&solution.density[b.offset]);
+    solution.velocity[j].velocity = b.axis * (solution.velocity[j].velocity + 0.5 * part.velocity);
+    solution.velocity[j].omega += 0.5 * part.omega;
   }
 }
 
@@ -358,11 +353,16 @@ StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector
   return solution;
 }
 
-StokesSolution StokesSystem::approximate(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const {
+StokesSolution StokesSystem::solve_apart(const std::vector<Wrench>& wrenches) const {
   StokesSolution solution;
-  const Vector rhs = straining_data(boundary_data(flow, wrenches), solution.velocity);
+  std::vector<int> moved;
+  for (int j = 0; j < body_count(); ++j)
+    if (!is_zero(wrench_of(wrenches, j))) moved.push_back(j);
+  const Vector rhs = straining_data(boundary_data({}, wrenches), solution.velocity);
+  for (int j = 0; j < body_count(); ++j)
+    if (is_zero(wrench_of(wrenches, j))) solution.velocity[j] = {};
   Vector density(rhs.size());
-  preconditioner_->apply(rhs, density);
+  preconditioner_->apply_to_some(moved, rhs, density);
   finish(density, solution);
   return solution;
 }

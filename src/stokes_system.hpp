@@ -78,16 +78,25 @@ class StokesSystem {
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& lagged) const;
 
-  // The same by one application of the preconditioner: exact for a pair of bodies that are close to each other
-  // and far from others.
-  StokesSolution approximate(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
+  // The answer of the bodies that the wrenches act on as if there were no others; exact for two close bodies,
+  // those of a contact, otherwise each by itself. Others stay where they are.
+  StokesSolution solve_apart(const std::vector<Wrench>& wrenches) const;
 
   // For any velocity on the boundaries (all nodes, laboratory frame) in place of that of the flow and the walls.
   StokesSolution solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess = {}) const;
 
-  // Fluid velocity at points in the fluid, accurate up to the boundaries.
-  ComplexVector velocity(const std::vector<Complex>& points, const ComplexVector& density,
-                         const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
+  // Velocity, pressure and gradient at points in the fluid or on its boundary (there the fluid's own limits),
+  // accurate at any distance from a boundary. In a container the pressure is that of N0's choice, up to a constant.
+  // Cost O(points + nodes) by the fast multipole method, and O(N^2) for each boundary near a point.
+  std::vector<PointFlow> flow(const std::vector<Complex>& points, const ComplexVector& density,
+                              const BackgroundFlow& background, const std::vector<Wrench>& wrenches) const;
+
+  // Force and torque (about its centre) of the container on the fluid, by the traction on it; zero without one.
+  Wrench container_wrench(const ComplexVector& density, const BackgroundFlow& background,
+                          const std::vector<Wrench>& wrenches) const;
+
+  // Forces and torques of the fixed bodies on the fluid that a density stands for; zero for free bodies.
+  std::vector<Wrench> reactions(const ComplexVector& density) const;
 
   // Stresslets S_11 + i S_12 of the bodies about their centres, laboratory frame:
   // S_ij = -Int (n_i eta_j + n_j eta_i - delta_ij n.eta) ds plus that of the completion flow.
@@ -111,6 +120,8 @@ class StokesSystem {
   std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;
   Matrix interaction(int target, int source) const;
   ComplexVector in_laboratory(const Complex* density) const;
+  std::vector<PointFlow> summed_flow(const PointArray& points, const ComplexVector& lab_density) const;
+  std::vector<int> near_points(const PlacedShape& boundary, const std::vector<Complex>& points) const;
   ComplexVector double_layer(const Complex* density) const;
   void apply(const Vector& in, Vector& out) const;
   void finish_boundary(int i, const Vector& in, Complex* result) const;

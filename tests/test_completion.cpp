@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "completion.hpp"
+#include "flow_checks.hpp"
 
 using namespace stokes;
 
@@ -245,4 +246,80 @@ TEST_CASE("the flow is continuous across both axes of the body, where the square
           }
         }
     }
+}
+
+TEST_CASE("pressure and gradient are those of the velocity, and solve the Stokes equations") {
+  for (const Shape& shape : shapes)
+    for (const Wrench& w : {Wrench{wrench.force, 0.0}, Wrench{0.0, wrench.torque}}) {
+      const Pose pose{{0.5, 0.2}, 0.6};
+      const auto flow = [&](Complex x) { return completion_flow(shape, pose, w, x); };
+      const Shape larger{shape.a + 0.3, shape.b + 0.3};
+      for (int k = 0; k < 8; ++k) {
+        const Complex x = boundary_point(larger, pose, 0.8 * k);
+        const StokesResidual residual = stokes_residual(flow, x, 2e-3);
+        INFO("semi-axes ", shape.a, " ", shape.b, " k ", k);
+        CHECK(std::abs(flow(x).velocity - completion_velocity(shape, pose, w, x)) < 1e-14);
+        CHECK(residual.gradient < 1e-9);
+        CHECK(residual.divergence < 1e-14);
+        CHECK(residual.momentum < 1e-8);
+        CHECK(gradient_size(flow(x)) > 1e-3);
+      }
+    }
+}
+
+TEST_CASE("the traction on any circle around the body, and on the body itself, adds up to force and torque") {
+  for (const Shape& shape : shapes) {
+    const Pose pose{{-2.0, 1.0}, 1.1};
+    // The normal points into the fluid outside, on which what is inside exerts minus the traction.
+    const auto exerted = [&](int points, const auto& point, const auto& weighted_normal) {
+      Wrench sum;
+      for (int k = 0; k < points; ++k) {
+        const double alpha = 2.0 * pi * k / points;
+        const Complex x = point(alpha);
+        const Complex f = traction(stress(completion_flow(shape, pose, wrench, x)), weighted_normal(alpha));
+        sum.force -= 2.0 * pi / points * f;
+        sum.torque -= 2.0 * pi / points * cross(x - pose.centre, f);
+      }
+      return sum;
+    };
+    const auto check = [&](const Wrench& sum) {
+      INFO("semi-axes ", shape.a, " ", shape.b);
+      CHECK(std::abs(sum.force - wrench.force) < 1e-12);
+      CHECK(std::abs(sum.torque - wrench.torque) < 1e-12);
+    };
+    for (double radius : {3.0, 10.0})
+      check(exerted(128, [&](double alpha) { return pose.centre + std::polar(radius, alpha); },
+                    [&](double alpha) { return std::polar(radius, alpha); }));
+    check(exerted(1024, [&](double alpha) { return boundary_point(shape, pose, alpha); },
+                  [&](double alpha) {
+                    return pose.axis() * Complex(shape.b * std::cos(alpha), shape.a * std::sin(alpha));
+                  }));
+  }
+}
+
+TEST_CASE("around a disc the pressure is F.r/(2 pi r^2), and a torque makes none") {
+  for (Complex r : {Complex(1.7, 0.0), Complex(-2.0, 3.0)}) {
+    const PointFlow flow = completion_flow({1.7, 1.7}, {{2.0, -3.0}, 0.8}, wrench, Complex(2.0, -3.0) + r);
+    CHECK(std::abs(flow.pressure - dot(wrench.force, r) / (2.0 * pi * std::norm(r))) < 1e-15);
+  }
+  const PointFlow torque = completion_flow({1.7, 1.7}, {}, {0.0, wrench.torque}, {2.0, 1.0});
+  CHECK(std::abs(torque.pressure) == 0.0);
+  CHECK(std::abs(vorticity(torque)) < 1e-16);
+}
+
+TEST_CASE("the pressure decays like a Stokeslet's far from an ellipse and is continuous across its axes") {
+  const Shape shape{1.5, 0.5};
+  for (int k = 0; k < 7; ++k) {
+    const Complex r = std::polar(1e3, 0.3 + 0.9 * k);
+    const double pressure = completion_flow(shape, {0.0, 0.7}, {wrench.force, 0.0}, r).pressure;
+    CHECK(std::abs(pressure - dot(wrench.force, r) / (2.0 * pi * std::norm(r))) < 1e-8);
+  }
+  for (double sign : {1.0, -1.0})
+    for (Complex e : {Complex(sign, 0.0), Complex(0.0, sign)})
+      for (double distance : {0.1, 1.0, 10.0}) {
+        const Complex x = (distance + (e.imag() == 0.0 ? shape.a : shape.b)) * e;
+        const PointFlow jump = completion_flow(shape, {}, wrench, x + 1e-12 * perp(e)) -
+                               completion_flow(shape, {}, wrench, x - 1e-12 * perp(e));
+        CHECK(std::abs(jump.pressure) + gradient_size(jump) < 1e-10);
+      }
 }

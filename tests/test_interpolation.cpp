@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "boundary_limits.hpp"
+#include "close_flow.hpp"
+#include "flow_checks.hpp"
 #include "fourier.hpp"
 #include "interpolation.hpp"
 #include "random_suspension.hpp"
@@ -232,8 +235,7 @@ TEST_CASE("inside an outer wall the errors fall alike") {
 TEST_CASE("on the curve, and 1e-15 before it, the value is the limit from the fluid") {
   const Curve curve = Shape{1.0, 0.5}.curve(128), fine = Shape{1.0, 0.5}.curve(512);
   for (Side side : {Side::exterior, Side::interior}) {
-    // The Cauchy scheme has no value on the curve itself, so its limit is taken just before it.
-    const VelocityRows limit = CloseEvaluation(fine, side, 1).velocity_rows(beside_nodes(fine, side, 1e-12));
+    const VelocityRows limit = CloseEvaluation(fine, side, 1).velocity_rows(beside_nodes(fine, side, 0.0));
     const ComplexVector expected = velocity(limit, density(two_waves, 512));
     const InterpolationEvaluation evaluation(curve, side);
     for (double distance : {0.0, 1e-15, 1e-12}) {
@@ -322,4 +324,65 @@ TEST_CASE("curves with an odd number of nodes or fewer than eight are refused") 
   CHECK_THROWS_AS(InterpolationEvaluation(Shape{}.curve(6), Side::exterior), InputError);
   CHECK_THROWS_AS(InterpolationEvaluation(Shape{}.curve(17), Side::exterior), InputError);
   CHECK_NOTHROW(InterpolationEvaluation(Shape{}.curve(8), Side::exterior));
+}
+
+TEST_CASE("pressure and gradient close to the curve have errors that fall with N at the velocity's rate") {
+  std::string table =
+      "largest relative errors of velocity, pressure and gradient closer than h:\n"
+      "  aspect  side      N  errors\n";
+  for (const auto& [aspect, side] : {std::pair(1.0, Side::exterior), std::pair(1.0, Side::interior),
+                                     std::pair(2.0, Side::exterior), std::pair(3.0, Side::exterior)}) {
+    const Boundary boundary = ellipse_boundary(1.0, 1.0 / aspect);
+    const CloseFlow exact(boundary(128), side, 4, smooth_density(128));
+    FlowErrors previous;
+    for (int points : {32, 64, 128, 256}) {
+      const Curve curve = boundary(points);
+      const double h = curve.length() / points;
+      const InterpolationEvaluation evaluation(curve, side);
+      const InterpolationFlow flow = evaluation.flow(smooth_density(points));
+      std::vector<PointFlow> got, expected;
+      for (double distance : {0.0, 0.1 * h, 0.5 * h, 0.9 * h})
+        for (Complex z : points_beside(boundary(40), side, distance)) {
+          got.push_back(flow.at(z));
+          expected.push_back(exact.at(z));
+        }
+      const FlowErrors error = flow_errors(got, expected);
+      char line[100];
+      std::snprintf(line, sizeof line, "  %6g  %-7s %3d  %.1e %.1e %.1e\n", aspect,
+                    side == Side::interior ? "inside" : "outside", points, error.velocity, error.pressure,
+                    error.gradient);
+      table += line;
+      // The approach to seventh order is the slower, the sharper the tip.
+      const double factor = aspect == 1.0 ? 8.0 : aspect == 2.0 ? 3.0 : 2.0;
+      if (points > 32) {
+        CHECK(error.pressure < previous.pressure / factor);
+        CHECK(error.gradient < previous.gradient / factor);
+      }
+      CHECK(error.pressure < 5.0 * error.velocity);
+      CHECK(error.gradient < 20.0 * error.velocity);
+      previous = error;
+    }
+    if (aspect == 1.0) CHECK(previous.largest() < 1e-6);
+    CHECK(previous.gradient < 3e-3);
+  }
+  MESSAGE(table);
+}
+
+TEST_CASE("the flow of a density has the rows' velocity, the limits at the nodes and the upsampled sum far away") {
+  const Curve curve = Shape{1.0, 0.5}.curve(64);
+  const ComplexVector eta = smooth_density(64);
+  for (Side side : {Side::exterior, Side::interior}) {
+    const InterpolationEvaluation evaluation(curve, side);
+    const InterpolationFlow flow = evaluation.flow(eta);
+    std::vector<PointFlow> at_nodes, far;
+    for (Complex z : curve.position) at_nodes.push_back(flow.at(z));
+    CHECK(flow_errors(at_nodes, boundary_limits(curve, side, eta)).largest() < 1e-12);
+    const std::vector<Complex> away = points_beside(curve, side, 0.2, 5), near = points_beside(curve, side, 0.02, 5);
+    for (Complex z : away) far.push_back(flow.at(z));
+    const auto sum = direct_flow(Shape{1.0, 0.5}.curve(512), side, fourier_upsample(eta, 512), away);
+    CHECK(flow_errors(far, sum).largest() < 1e-12);
+    const ComplexVector u = velocity(evaluation.velocity_rows(near), eta);
+    for (std::size_t i = 0; i < near.size(); ++i)
+      CHECK(std::abs(flow.at(near[i]).velocity - u[static_cast<Eigen::Index>(i)]) < 1e-12);
+  }
 }
