@@ -141,6 +141,34 @@ StepperMemory::Density read_density(Reader& reader) {
   return density;
 }
 
+void write_memory(Writer& writer, const StepperMemory& memory) {
+  writer.line("memory", memory.path, memory.background.size(), memory.contacts.size());
+  for (const StepperMemory::Density& density : memory.background) write_density(writer, density);
+  write_density(writer, memory.total);
+  for (const auto& [bodies, history] : memory.contacts) {
+    writer.line("contact", bodies.first, bodies.second, history.size());
+    for (const StepperMemory::Density& density : history) write_density(writer, density);
+  }
+}
+
+StepperMemory read_memory(Reader& reader) {
+  StepperMemory memory;
+  reader.begin("memory");
+  memory.path = reader.number();
+  memory.background.resize(reader.integer<std::size_t>());
+  const auto contacts = reader.integer<std::size_t>();
+  for (StepperMemory::Density& density : memory.background) density = read_density(reader);
+  memory.total = read_density(reader);
+  for (std::size_t k = 0; k < contacts; ++k) {
+    reader.begin("contact");
+    const int a = reader.integer<int>(), b = reader.integer<int>();
+    auto& history = memory.contacts[{a, b}];
+    history.resize(reader.integer<std::size_t>());
+    for (StepperMemory::Density& density : history) density = read_density(reader);
+  }
+  return memory;
+}
+
 void write_state(Writer& writer, const Checkpoint& checkpoint) {
   const RunState& run = checkpoint.run;
   const ClockState& clock = run.clock;
@@ -151,9 +179,7 @@ void write_state(Writer& writer, const Checkpoint& checkpoint) {
   for (const Pose& pose : run.poses)
     for (const double x : {pose.centre.real(), pose.centre.imag(), pose.angle}) poses.push_back(x);
   writer.line("poses", poses);
-  writer.line("memory", run.memory.path, run.memory.background.size());
-  for (const StepperMemory::Density& density : run.memory.background) write_density(writer, density);
-  write_density(writer, run.memory.total);
+  write_memory(writer, run.memory);
   const Recorder::Position& recorder = checkpoint.recorder;
   writer.line("bytes", recorder.trajectory_bytes, recorder.steps_bytes);
   writer.line("skipped", recorder.skipped.size());
@@ -175,11 +201,7 @@ Checkpoint read_state(Reader& reader) {
   run.rejected = reader.integer<long>();
   const std::vector<double> poses = reader.numbers("poses");
   for (std::size_t k = 0; k + 2 < poses.size(); k += 3) run.poses.push_back({{poses[k], poses[k + 1]}, poses[k + 2]});
-  reader.begin("memory");
-  run.memory.path = reader.number();
-  run.memory.background.resize(reader.integer<std::size_t>());
-  for (StepperMemory::Density& density : run.memory.background) density = read_density(reader);
-  run.memory.total = read_density(reader);
+  run.memory = read_memory(reader);
   reader.begin("bytes");
   checkpoint.recorder.trajectory_bytes = reader.integer<std::uintmax_t>();
   checkpoint.recorder.steps_bytes = reader.integer<std::uintmax_t>();

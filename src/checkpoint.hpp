@@ -33,7 +33,8 @@ class CheckpointFile {
   // had to be changed.
   std::optional<Checkpoint> read() const;
 
-  // NumericalError on a write error; the checkpoint before is then still there. Cost: about 160 bytes a node.
+  // NumericalError on a write error; the checkpoint before is then still there. Cost: about 160 bytes a node, and as
+  // much again for each pair in contact.
   void write(const Checkpoint& checkpoint) const;
 
   // Also what a killed write left; nothing if there is neither.

@@ -1,6 +1,7 @@
 // Runs that are interrupted and go on: the same bytes as if they never had been.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -205,6 +206,17 @@ TEST_CASE("a run that is killed again and again ends with the bytes of an undist
 TEST_CASE("an adaptive run that is stopped by any signal ends with the bytes of an undisturbed one") {
   const Workspace here(case_text("none", 64, 0.05, 12, "min_separation_length = .05\nadaptive = yes\n"), colliding);
   check_interrupted(here, {"TERM", "KILL", "INT"}, 4, "checkpoint_every=0.01");
+}
+
+TEST_CASE("a run between walls that is killed ends with the bytes of an undisturbed one") {
+  const Workspace here(
+      "bodies = bodies.csv\ngeometry = annulus\ninner_radius = 1\nouter_radius = 4\nwall_points = 32\n"
+      "outer_angular_velocity = 2\ninjection_rate = .5\nreverse_at = 0.7\npoints_per_body = 32\ntime_step = 0.02\n"
+      "end_time = 1\nmin_separation_length = .35\noutput = out\n",
+      "a,b,x,y,theta,fixed,force_y\n.5,.25,2.2,0,0,0,9\n.5,.25,2.4,.9,0,0,-9\n.3,.3,0,-2.5,0,1,0\n");
+  check_interrupted(here, {"KILL", "TERM"}, 2, "checkpoint_every=1e-9");
+  const std::vector<double> contacts = here.results().step_column("contacts");
+  CHECK(*std::max_element(contacts.begin(), contacts.end() - 1) > 0.0);
 }
 
 TEST_CASE("a run that is killed before its first checkpoint starts again") {
