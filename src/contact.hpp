@@ -41,6 +41,8 @@ struct ContactConstraint {
 // Two fixed bodies are no pair. Of a mobile body and the container the gap at the trial pose is all there is to
 // know: nobody passes through the wall and comes back. A step that turns the normal by more than 60 degrees
 // started too far from the wall to show where it would be met; its force is along the normal at the trial pose.
+// A body so flat that it can touch the wall with both ends (container_gap.hpp) has one contact there all the same:
+// iterations that press now one end and now the other against the wall may fail to settle.
 class GapCollector {
  public:
   // separation >= 0. With 0 the bodies are kept 1e-8 of the smallest semi-axis apart,

@@ -306,7 +306,8 @@ TEST_CASE("obstacles: a body that is jammed between obstacles fails clearly, in 
   const Suspension three = {mobile(1, 1, 0.01), fixed(1, 1, 2.0), fixed(1, 1, std::polar(2.0, 2.1)),
                             fixed(1, 1, std::polar(2.0, -2.1))};
   // Slightly off the line, the way out is so slim a wedge that only absurd forces would find it.
-  for (const Suspension* shape : {&tight, &no_margin, &annulus, &three})
+  int wedges = 0;
+  for (const Suspension* shape : {&tight, &no_margin, &annulus, &three}) {
     for (const double aside : {0.0, 1e-12, 1e-8, 1e-5}) {
       Suspension start = *shape;
       const bool first = !start[0].fixed;
@@ -316,7 +317,16 @@ TEST_CASE("obstacles: a body that is jammed between obstacles fails clearly, in 
       CHECK(result.iterations <= 3);
       CAPTURE(result.failure);
       CHECK(result.failure.find("jammed") != std::string::npos);
+      wedges += result.failure.find("times those that part a pair") != std::string::npos;
     }
+    const NcpOptions increments{50, false, 8};
+    const Problem polygons{*shape, std::vector<RigidVelocity>(shape->size()), 1.0, 0.1, increments, ContactModel::stiv};
+    const NcpResult result = resolve(polygons);
+    CHECK_FALSE(result.solved);
+    CAPTURE(result.failure);
+    CHECK(result.failure.find("jammed") != std::string::npos);
+  }
+  CHECK(wedges > 0);
 }
 
 TEST_CASE("obstacles: a body squeezed out of a wedge between two obstacles finds its way") {
