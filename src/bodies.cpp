@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "csv.hpp"
+#include "gap.hpp"
 #include "neighbours.hpp"
 #include "text.hpp"
 
@@ -33,7 +35,7 @@ constexpr Column columns[] = {
     {"force_x", false, "external force; the sum over the bodies is 0 in unbounded flow"},
     {"force_y", false, "external force"},
     {"torque", false, "external torque about the centre"},
-    {"fixed", false, "0 or 1; 0 in unbounded flow"},
+    {"fixed", false, "1: held in place, in an annulus only"},
 };
 
 void check_columns(const Table& table) {
@@ -71,15 +73,30 @@ Body read_body(const Table& table, int row) {
     refuse(table.where(row), "fixed = ", fixed, " of body ", row,
          " must be 0 (free) or 1 (held in place).");
   }
-  if (fixed == 1.0) {
-    refuse(table.where(row), "body ", row, " is fixed, but in unbounded flow only free ",
-         "bodies are possible: a held body exerts a net force, for which no bounded flow ",
-         "exists in two dimensions; set fixed to 0.");
-  }
   return {Shape{value("a"), value("b")},
           Pose{{value("x"), value("y")}, value("theta")},
           {value("force_x"), value("force_y")},
-          value("torque")};
+          value("torque"),
+          fixed == 1.0};
+}
+
+Suspension read_table(const Table& table) {
+  check_columns(table);
+  if (table.rows.empty())
+    refuse(table.where_header(), "there are no bodies; add a row below the header for each.");
+  Suspension bodies;
+  for (int row = 0; row < static_cast<int>(table.rows.size()); ++row)
+    bodies.push_back(read_body(table, row));
+  return bodies;
+}
+
+void check_all_free(const Table& table, const Suspension& bodies) {
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    if (!bodies[i].fixed) continue;
+    refuse(table.where(i), "body ", i, " is fixed, but in unbounded flow only free ",
+         "bodies are possible: a held body exerts a net force, for which no bounded flow ",
+         "exists in two dimensions; set fixed to 0.");
+  }
 }
 
 // A net force in unbounded two-dimensional Stokes flow has no bounded solution.
@@ -112,17 +129,48 @@ void check_overlaps(const Table& table, const Suspension& bodies) {
          ", the smallest gap of all; move them apart.");
 }
 
+void check_walls(const Table& table, const Suspension& bodies, const Annulus& annulus) {
+  const Container outer = outer_wall(annulus);
+  const Body inner = inner_wall(annulus);
+  double smallest = std::numeric_limits<double>::infinity();
+  int worst = 0;
+  bool is_outer = false;
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    const double outer_gap = wall_gap(bodies[i], outer), inner_gap = gap(bodies[i], inner).value;
+    if (std::min(outer_gap, inner_gap) >= smallest) continue;
+    smallest = std::min(outer_gap, inner_gap);
+    worst = i;
+    is_outer = outer_gap < inner_gap;
+  }
+  if (smallest > 0.0) return;
+  const std::string wall = is_outer ? concat("the outer wall of radius ", outer.radius)
+                                    : concat("the inner wall of radius ", annulus.inner_radius);
+  const std::string depth = smallest == 0.0 ? concat("touches ", wall)
+                            : is_outer      ? concat("reaches ", -smallest, " beyond ", wall)
+                                            : concat("overlaps ", wall, " by ", -smallest);
+  refuse(table.where(worst), "body ", worst, " (counted from 0) ", depth,
+         ", the smallest distance to a wall of all; move it ", is_outer ? "inwards." : "outwards.");
+}
+
+Table read_bodies_table(const std::filesystem::path& path) {
+  return parse_csv(read_text_file(path, "the bodies' file"), path.string());
+}
+
 }  // namespace
 
 Suspension read_bodies(const std::filesystem::path& path) {
-  const Table table = parse_csv(read_text_file(path, "the bodies' file"), path.string());
-  check_columns(table);
-  if (table.rows.empty())
-    refuse(table.where_header(), "there are no bodies; add a row below the header for each.");
-  Suspension bodies;
-  for (int row = 0; row < static_cast<int>(table.rows.size()); ++row)
-    bodies.push_back(read_body(table, row));
+  const Table table = read_bodies_table(path);
+  Suspension bodies = read_table(table);
+  check_all_free(table, bodies);
   check_net_force(table, bodies);
+  check_overlaps(table, bodies);
+  return bodies;
+}
+
+Suspension read_bodies(const std::filesystem::path& path, const Annulus& annulus) {
+  const Table table = read_bodies_table(path);
+  Suspension bodies = read_table(table);
+  check_walls(table, bodies, annulus);
   check_overlaps(table, bodies);
   return bodies;
 }

@@ -1,8 +1,8 @@
 // A user's problem: the case file `key = value` and the CSV of its bodies.
 //
 // Every error in either is an InputError of one paragraph: file and line (or the argument), the value
-// against its limit, what to try. To add a key: a member of Case and a line in keys() in case.cpp. To
-// add a value: an enumerator and its word in case.cpp. Limits, if there are any, go into check_case().
+// against its limit, what to try. To add a key: a member of Case and a line in case_keys.cpp. To
+// add a value: an enumerator and its word in case_keys.cpp. Limits, if there are any, go into check_case().
 #pragma once
 
 #include <filesystem>
@@ -16,19 +16,34 @@
 
 namespace stokes {
 
+enum class Geometry {
+  unbounded,
+  annulus,  // two concentric circular walls, centred at 0
+};
 
 struct Case {
   std::filesystem::path file;  // the case file; not a key
 
   // Required.
   std::string bodies;             // CSV of the bodies, as written: see bodies_path()
-  FlowKind flow = FlowKind::none;
+  FlowKind flow = FlowKind::none;  // in an annulus not required, and none
   int points_per_body = 0;        // even, at least 8
   double time_step = 0.0;         // time
   double end_time = 0.0;          // time
   std::string output;             // folder, relative to the working directory
 
+  // Required in an annulus, and only possible there.
+  double inner_radius = 0.0;  // length
+  double outer_radius = 0.0;  // length
+
+  // With defaults, only possible in an annulus.
+  int wall_points = 256;                // even, at least 16
+  double outer_angular_velocity = 0.0;  // 1 / time
+  double inner_angular_velocity = 0.0;  // 1 / time
+  double injection_rate = 0.0;          // area / time through both walls, outwards
+
   // With defaults.
+  Geometry geometry = Geometry::unbounded;
   double rate = 1.0;                            // 1 / time; may be negative
   std::optional<double> reverse_at;             // time; every driving changes sign once
   double min_separation = 0.0;                  // in units of h = longest perimeter / points_per_body
@@ -40,8 +55,13 @@ struct Case {
   StivGradient stiv_gradient = StivGradient::full;
   NearSingular near_singular = NearSingular::cauchy;
   double gmres_tolerance = 1e-8;                // relative true residual
+  Refine refine = Refine::none;
+  Summation summation = Summation::automatic;
   bool adaptive = false;                        // reject and halve time steps
   int output_every = 1;                         // steps
+  std::vector<double> fields_at;                // times, increasing
+  int field_points = 200;                       // on each side of the grid
+  double checkpoint_every = 60.0;               // seconds of wall time; 0: none at intervals
   std::optional<int> threads;                   // all cores if not given
   TimeCounting time_counting = TimeCounting::exact;
 
@@ -53,11 +73,15 @@ struct Case {
 // the value that is written there, right or wrong.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-// The smallest allowed distance between two bodies, in length units.
+// The bodies of a case's file and, in an annulus, its walls (annulus.hpp). InputError as read_bodies().
+Suspension read_suspension(const Case& parameters);
+
+// The smallest allowed distance between two bodies, in length units. Walls have no part in its unit h.
 double separation_length(const Case& parameters, const Suspension& bodies);
 
-// Every key but `threads` and `output` (results are the same bytes whatever these are) with its value,
-// defaults included: the comment lines of a result. Written as `key = value` they make the same case.
+// Every key of the case's geometry but `threads`, `output` and `checkpoint_every` (results are the same bytes
+// whatever these are) with its value, defaults included: the comment lines of a
+// result. Written as `key = value` they make the same case.
 Comments describe(const Case& parameters);
 
 // What a user can write: every key with its default and values, and the columns of the bodies' file.

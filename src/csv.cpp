@@ -204,13 +204,28 @@ std::string csv_field(std::string_view text) {
   return field + '"';
 }
 
-CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header,
-                     const Comments& comments)
-    : name_(path.string()), columns_(header.size()), file_(std::fopen(name_.c_str(), "wb")) {
+CsvWriter::CsvWriter(std::string name, std::size_t columns, std::uintmax_t bytes, const char* mode)
+    : name_(std::move(name)), columns_(columns), bytes_(bytes), file_(std::fopen(name_.c_str(), mode)) {
   if (!file_) {
     throw InputError(concat(name_, ": cannot create the file: ", system_message(),
                             "; check that its folder exists and can be written."));
   }
+}
+
+CsvWriter CsvWriter::continued(const std::filesystem::path& path, std::size_t columns, std::uintmax_t bytes) {
+  CsvWriter writer(path.string(), columns, bytes, "ab");
+  std::error_code error;
+  std::filesystem::resize_file(path, bytes, error);
+  if (error) {
+    throw NumericalError(concat(path.string(), ": cannot be cut to ", bytes, " bytes: ", error.message(),
+                                "; choose another output folder."));
+  }
+  return writer;
+}
+
+CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header,
+                     const Comments& comments)
+    : CsvWriter(path.string(), header.size(), 0, "wb") {
   for (const auto& [key, value] : comments) write(one_line(concat("# ", key, ": ", value)) + '\n');
   std::vector<std::string> names;
   for (const std::string& name : header) names.push_back(csv_field(name));
@@ -236,6 +251,7 @@ void CsvWriter::write_row(const std::vector<std::string>& fields) {
 void CsvWriter::write(std::string_view text) {
   if (!file_) throw std::logic_error(concat(name_, ": a row after close()"));
   if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) fail();
+  bytes_ += text.size();
 }
 
 void CsvWriter::flush() {

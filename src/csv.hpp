@@ -5,6 +5,7 @@
 // The writer's bytes depend on nothing but its arguments.
 #pragma once
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -77,6 +78,12 @@ class CsvWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header,
             const Comments& comments = {});
+  // Goes on with a table that has at least `bytes` bytes after that many, the end of a line; what follows them is
+  // cut off. InputError if the file cannot be written.
+  static CsvWriter continued(const std::filesystem::path& path, std::size_t columns, std::uintmax_t bytes);
+
+  // Length of the file once everything is flushed.
+  std::uintmax_t bytes() const { return bytes_; }
 
   // One field for each column: numbers or text. Another count is a program error (std::logic_error).
   template <CsvField... Fields>
@@ -92,12 +99,14 @@ class CsvWriter {
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }
   };
+  CsvWriter(std::string name, std::size_t columns, std::uintmax_t bytes, const char* mode);
   void write(std::string_view text);
   void write_row(const std::vector<std::string>& fields);
   [[noreturn]] void fail() const;
 
   std::string name_;
   std::size_t columns_;
+  std::uintmax_t bytes_;
   std::unique_ptr<std::FILE, Close> file_;
 };
 

@@ -6,8 +6,13 @@
 
 namespace stokes {
 
-Progress::Progress(double end_time)
-    : end_time_(end_time), terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()), last_(start_) {}
+Progress::Progress(double end_time, double start_time)
+    : start_time_(start_time), end_time_(end_time), terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()), last_(start_) {
+  while (100.0 * start_time_ >= end_time_ * next_percent_) next_percent_ += 5;
+}
+
+Progress::~Progress() { clear_line(); }
 
 void Progress::clear_line() {
   if (line_open_) std::fprintf(stderr, "\r\033[K");
@@ -27,7 +32,8 @@ void Progress::show(const StepRecord& record) {
   last_ = now;
   while (100.0 * done >= next_percent_) next_percent_ += 5;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double left = done > 0.0 ? elapsed * (1.0 - done) / done : 0.0;
+  const double way = record.time - start_time_;
+  const double left = way > 0.0 ? elapsed * (end_time_ - record.time) / way : 0.0;
   clear_line();
   std::fprintf(stderr, "%3.0f %%  time %.6g of %.6g  step %ld  contacts %zu  iterations %d gmres, %d ncp  %.0f s left%s", 100.0 * done,
                record.time, end_time_, record.step, record.outcome->contacts.size(), record.outcome->gmres_iterations,

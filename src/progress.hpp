@@ -9,7 +9,11 @@ namespace stokes {
 
 class Progress {
  public:
-  explicit Progress(double end_time);
+  // Of a run from start_time to end_time.
+  explicit Progress(double end_time, double start_time = 0.0);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();
 
   // Time, step, contacts, iterations and the estimated end, at most ten times a second.
   void show(const StepRecord& record);
@@ -22,7 +26,7 @@ class Progress {
 
   void clear_line();
 
-  double end_time_;
+  double start_time_, end_time_;
   bool terminal_, line_open_ = false;
   Clock::time_point start_, last_;
   int next_percent_ = 5;

@@ -8,13 +8,33 @@ namespace stokes {
 
 namespace {
 
-constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.csv";
+constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.csv", *checkpoint_name = "checkpoint";
+
+const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x",  "y",  "theta",
+                                                     "ux",   "uy",   "omega", "fx", "fy", "torque"};
+const std::vector<std::string> steps_columns = {"step",           "time",     "dt",      "gmres_iterations",
+                                                "ncp_iterations", "contacts", "min_gap", "density_tail"};
 
 const std::filesystem::path& made(const std::filesystem::path& folder) {
   std::string why = why_not_writable(folder);
   std::error_code error;
   if (why.empty() && (std::filesystem::create_directories(folder, error), error)) why = error.message();
   if (!why.empty()) throw InputError(concat("the output folder ", quote(folder.string()), " cannot be used: ", why));
+  return folder;
+}
+
+const std::filesystem::path& long_enough(const std::filesystem::path& folder, const Recorder::Position& position) {
+  for (const auto& [name, needed] : {std::pair(trajectory_name, position.trajectory_bytes),
+                                     std::pair(steps_name, position.steps_bytes)}) {
+    const std::filesystem::path file = folder / name;
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    if (!error && size >= needed) continue;
+    throw InputError(concat(file.string(), ": cannot be continued: ",
+                            error ? error.message() : concat("it has ", size, " bytes"), ", but the first ", needed,
+                            " bytes are needed; put them back, or delete the checkpoint beside it to start from the ",
+                            "beginning."));
+  }
   return folder;
 }
 
@@ -37,7 +57,7 @@ std::string why_not_writable(const std::filesystem::path& folder) {
   const auto because = [](const std::filesystem::path& place, const char* why) { return concat(quote(place.string()), " ", why); };
   if (!std::filesystem::is_directory(existing)) return because(existing, "is not a folder");
   if (access(existing.c_str(), W_OK | X_OK) != 0) return because(existing, "is not writable");
-  for (const char* name : {trajectory_name, steps_name}) {
+  for (const char* name : {trajectory_name, steps_name, checkpoint_name}) {
     const std::filesystem::path file = folder / name;
     if (!std::filesystem::exists(file)) continue;
     if (!std::filesystem::is_regular_file(file)) return because(file, "is in the way of a file to be written");
@@ -48,10 +68,15 @@ std::string why_not_writable(const std::filesystem::path& folder) {
 
 Recorder::Recorder(const std::filesystem::path& folder, int output_every)
     : output_every_(output_every),
-      trajectory_(made(folder) / trajectory_name,
-                  {"step", "time", "body", "x", "y", "theta", "ux", "uy", "omega", "fx", "fy", "torque"}),
-      steps_(folder / steps_name,
-             {"step", "time", "dt", "gmres_iterations", "ncp_iterations", "contacts", "min_gap", "density_tail"}) {}
+      trajectory_(made(folder) / trajectory_name, trajectory_columns),
+      steps_(folder / steps_name, steps_columns) {}
+
+Recorder::Recorder(const std::filesystem::path& folder, int output_every, const Position& position)
+    : output_every_(output_every),
+      trajectory_(CsvWriter::continued(long_enough(folder, position) / trajectory_name, trajectory_columns.size(),
+                                       position.trajectory_bytes)),
+      steps_(CsvWriter::continued(folder / steps_name, steps_columns.size(), position.steps_bytes)),
+      skipped_(position.skipped) {}
 
 void Recorder::record(const StepRecord& record) {
   const double nan = std::nan(""), step = static_cast<double>(record.step);
@@ -87,6 +112,11 @@ void Recorder::record(const StepRecord& record) {
   }
   trajectory_.flush();
   steps_.flush();
+}
+
+void Recorder::close() {
+  trajectory_.close();
+  steps_.close();
 }
 
 }  // namespace stokes

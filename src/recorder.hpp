@@ -1,6 +1,7 @@
 // Writes a run as it goes: trajectory.csv and steps.csv in one folder, every field a number.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -22,15 +23,29 @@ std::string why_not_writable(const std::filesystem::path& folder);
 //   A row for every step and one for the final configuration.
 class Recorder {
  public:
+  using Row = std::vector<double>;
+
+  // Where the files of an unfinished run end.
+  struct Position {
+    std::uintmax_t trajectory_bytes = 0, steps_bytes = 0;
+    std::vector<Row> skipped;  // rows of the latest step that was left out
+  };
+
   // Creates the folder where it is missing. InputError when it cannot be written.
   Recorder(const std::filesystem::path& folder, int output_every);
+  // Goes on with the files of a run that was at `position`; what they hold beyond is cut off. InputError, and
+  // nothing is changed, where they hold less.
+  Recorder(const std::filesystem::path& folder, int output_every, const Position& position);
+
+  Position position() const { return {trajectory_.bytes(), steps_.bytes(), skipped_}; }
 
   // Rows are on disk when this returns. NumericalError on a write error.
   void record(const StepRecord& record);
 
- private:
-  using Row = std::vector<double>;
+  // At the end of the work. NumericalError on a write error.
+  void close();
 
+ private:
   int output_every_;
   CsvWriter trajectory_, steps_;
   std::vector<Row> skipped_;  // rows of the latest step that was left out; written if it is the last

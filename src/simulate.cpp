@@ -1,11 +1,19 @@
 // simulate CASE.txt [key=value ...]: runs a suspension described by a case file (case.hpp).
-// Exit status: 0 done; 2 bad input, nothing written; 3 numerical failure, everything up to it written.
+// Exit status: 0 done; 2 bad input, nothing written; 3 numerical failure, everything up to it written; 130 and 143
+// ended by SIGINT or SIGTERM. An unfinished run leaves a checkpoint, from which the same command goes on.
 
+#include <atomic>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "case.hpp"
+#include "checkpoint.hpp"
 #include "neighbours.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
@@ -21,7 +29,9 @@ SimulationOptions options_of(const Case& c, double separation) {
   SimulationOptions options;
   options.stepper.flow = {c.flow, c.rate};
   options.stepper.points_per_body = c.points_per_body;
+  options.stepper.refine = c.refine;
   options.stepper.stokes.gmres_tolerance = c.gmres_tolerance;
+  options.stepper.stokes.summation = c.summation;
   options.stepper.near_singular = c.near_singular;
   options.stepper.contact = c.contact;
   options.stepper.separation = separation;
@@ -44,17 +54,86 @@ void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separati
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
 }
 
+std::atomic<int> caught_signal = 0;
+std::atomic<std::time_t> caught_at = 0;
+
+// The first signal lets the run finish its step; one more, more than a second later, ends it at once.
+extern "C" void catch_signal(int signal) {
+  if (caught_signal == 0) {
+    caught_at = std::time(nullptr);
+    caught_signal = signal;
+  } else if (std::time(nullptr) > caught_at + 1) {
+    std::_Exit(128 + signal);
+  }
+}
+
+void catch_signals() {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;  // as in the background, where Ctrl-C is for others
+    action = {};
+    action.sa_handler = catch_signal;
+    action.sa_flags = SA_RESTART;
+    sigaction(signal, &action, nullptr);
+  }
+}
+
+struct Interruption {
+  int signal;
+  std::string message;
+};
+
+// Writes checkpoints at intervals of wall time, and before the run ends early.
+class Checkpoints {
+ public:
+  Checkpoints(const CheckpointFile& file, const Recorder& recorder, double interval)
+      : file_(file), recorder_(recorder), interval_(interval), last_(Clock::now()) {}
+
+  void observe(const RunState& state, RunStage stage) {
+    const int signal = caught_signal;
+    const bool due = interval_ > 0.0 && std::chrono::duration<double>(Clock::now() - last_).count() >= interval_;
+    if (stage == RunStage::under_way && !due && signal == 0) return;
+    file_.write({state, stage, recorder_.position()});
+    last_ = Clock::now();
+    if (stage == RunStage::under_way && signal != 0) {
+      throw Interruption{signal, concat("interrupted at step ", state.clock.step, ", time ", state.clock.time,
+                                        "; the same command goes on from ", file_.path().string())};
+    }
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const CheckpointFile& file_;
+  const Recorder& recorder_;
+  double interval_;
+  Clock::time_point last_;
+};
+
 int run(const std::vector<std::string>& arguments) {
   const Case c = read_case(arguments[0], {arguments.begin() + 1, arguments.end()});
-  const Suspension bodies = read_bodies(c.bodies_path());
+  const Suspension bodies = read_suspension(c);
   const double separation = separation_length(c, bodies);
   if (c.threads) set_thread_count(*c.threads);
-  Progress progress(c.end_time);
-  warn_of_small_gaps(c, bodies, separation, progress);
 
-  Recorder recorder(c.output, c.output_every);
+  const CheckpointFile file(c, bodies);
+  const std::optional<Checkpoint> start = file.read();
+  Progress progress(c.end_time, start ? start->run.clock.time : 0.0);
+  if (!start) file.remove();  // of another run that failed, before its results
+  Recorder recorder = start ? Recorder(c.output, c.output_every, start->recorder) : Recorder(c.output, c.output_every);
+  if (start)
+    progress.message(concat("going on from step ", start->run.clock.step, ", time ", start->run.clock.time));
+  else
+    warn_of_small_gaps(c, bodies, separation, progress);
+
+  SimulationOptions options = options_of(c, separation);
+  if (start) options.start = start->run;
+  Checkpoints checkpoints(file, recorder, c.checkpoint_every);
+  options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };
+  catch_signals();
   bool warned = false;
-  const RunSummary summary = simulate(bodies, options_of(c, separation), [&](const StepRecord& record) {
+  const RunSummary summary = simulate(bodies, options, [&](const StepRecord& record) {
     recorder.record(record);
     progress.show(record);
     if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
@@ -64,6 +143,8 @@ int run(const std::vector<std::string>& arguments) {
                               "); more points_per_body would resolve it"));
     }
   });
+  recorder.close();
+  file.remove();
   std::printf("%ld steps, %ld rejected\n", summary.steps, summary.rejected);
   std::printf("preconditioner factorisations: %d (distinct shapes: %d)\n", summary.factorisations, summary.shapes);
   std::printf("results in %s\n", c.output.c_str());
@@ -80,6 +161,9 @@ int main(int argc, char** argv) {
   }
   try {
     return run(arguments);
+  } catch (const Interruption& end) {
+    std::fprintf(stderr, "simulate: %s\n", end.message.c_str());
+    return 128 + end.signal;
   } catch (const InputError& error) {
     std::fprintf(stderr, "simulate: %s\n", error.what());
     return 2;

@@ -18,94 +18,125 @@ constexpr int fixed_step_ncp_limit = 50, self_mobility_ncp_limit = 5000, adaptiv
 // When each step starts, how long it is and which way the flow is driven.
 class Clock {
  public:
-  explicit Clock(const SimulationOptions& options) : options_(options), dt_(options.time_step) {
+  explicit Clock(const SimulationOptions& options) : options_(options) {
+    now_.dt = options.time_step;
+    if (options.start) now_ = options.start->clock;
     steps_ = std::max(1L, std::lround(options.end_time / options.time_step));
   }
 
-  double time() const { return time_; }
+  const ClockState& now() const { return now_; }
   double driving() const { return driving_; }
 
   bool done() const {
-    if (options_.adaptive || options_.time_counting == TimeCounting::accumulated) return !(time_ < options_.end_time);
-    return step_ == steps_;
+    const bool by_time = options_.adaptive || options_.time_counting == TimeCounting::accumulated;
+    if (by_time) return !(now_.time < options_.end_time);
+    return now_.step == steps_;
   }
 
   // Called at the start of each step. Exact counting forgives the rounding of k dt; accumulated does not.
   void begin_step() {
     const double slack = options_.time_counting == TimeCounting::exact ? 1e-9 * options_.time_step : 0.0;
-    if (options_.reverse_at && time_ >= *options_.reverse_at - slack) driving_ = -1.0;
+    if (options_.reverse_at && now_.time >= *options_.reverse_at - slack) driving_ = -1.0;
   }
 
   // The step to take from here: fixed, or the adaptive one cut at the end and at the reversal.
   double step(double limit) const {
     if (!options_.adaptive) {
-      const bool last = options_.time_counting == TimeCounting::exact && step_ + 1 == steps_;
-      return last ? options_.end_time - time_ : options_.time_step;
+      const bool last = options_.time_counting == TimeCounting::exact && now_.step + 1 == steps_;
+      return last ? options_.end_time - now_.time : options_.time_step;
     }
-    const double dt = std::min(dt_, limit);
+    const double dt = std::min(now_.dt, limit);
     for (const std::optional<double>& stop : {options_.reverse_at, std::optional(options_.end_time)})
-      if (stop && time_ < *stop && time_ + dt > *stop * (1.0 - 1e-12)) return *stop - time_;
+      if (stop && now_.time < *stop && now_.time + dt > *stop * (1.0 - 1e-12)) return *stop - now_.time;
     return dt;
   }
 
   void accept(double dt, int ncp_iterations) {
-    ++step_;
+    ++now_.step;
     if (options_.adaptive) {
       // Land exactly on a stop that the step was cut at.
-      const double reached = time_ + dt;
-      time_ = reached;
+      const double reached = now_.time + dt;
+      now_.time = reached;
       for (const std::optional<double>& stop : {options_.reverse_at, std::optional(options_.end_time)})
-        if (stop && std::abs(reached - *stop) <= 1e-12 * *stop) time_ = *stop;
-      easy_steps_ = ncp_iterations <= 2 ? easy_steps_ + 1 : 0;
-      ++since_rejection_;
-      if (easy_steps_ >= 3 && since_rejection_ > 5) {
-        dt_ = std::min(options_.time_step, 1.5 * dt_);
-        easy_steps_ = 0;
+        if (stop && std::abs(reached - *stop) <= 1e-12 * *stop) now_.time = *stop;
+      now_.easy_steps = ncp_iterations <= 2 ? now_.easy_steps + 1 : 0;
+      ++now_.since_rejection;
+      if (now_.easy_steps >= 3 && now_.since_rejection > 5) {
+        now_.dt = std::min(options_.time_step, 1.5 * now_.dt);
+        now_.easy_steps = 0;
       }
     } else if (options_.time_counting == TimeCounting::accumulated) {
-      time_ += dt;
+      now_.time += dt;
     } else {
-      time_ = step_ == steps_ ? options_.end_time : static_cast<double>(step_) * options_.time_step;
+      now_.time = now_.step == steps_ ? options_.end_time : static_cast<double>(now_.step) * options_.time_step;
     }
   }
 
   // Halves the step; false when it is as small as it may get.
   bool reject(double dt) {
-    since_rejection_ = 0;
-    easy_steps_ = 0;
-    dt_ = 0.5 * dt;
-    return options_.adaptive && dt_ >= smallest_step * options_.time_step;
+    now_.since_rejection = 0;
+    now_.easy_steps = 0;
+    now_.dt = 0.5 * dt;
+    return options_.adaptive && now_.dt >= smallest_step * options_.time_step;
   }
 
  private:
   const SimulationOptions& options_;
-  double dt_, time_ = 0.0, driving_ = 1.0;
-  long step_ = 0, steps_;
-  int easy_steps_ = 0, since_rejection_ = 6;
+  ClockState now_;
+  double driving_ = 1.0;
+  long steps_;
 };
 
-}  // namespace
-
-RunSummary simulate(const Suspension& initial, const SimulationOptions& options, const Observer& observe) {
-  Stepper stepper(initial, options.stepper);
-  Clock clock(options);
+NcpOptions ncp_options(const SimulationOptions& options) {
   NcpOptions ncp;
   ncp.demand_progress = options.adaptive;
   ncp.max_iterations = options.adaptive                                   ? adaptive_ncp_limit
                        : options.stepper.lcp_matrix == LcpMatrix::self ? self_mobility_ncp_limit
                                                                           : fixed_step_ncp_limit;
-  RunSummary summary;
-  ClosestPair closest = smallest_gap(initial);
+  return ncp;
+}
 
+// Finds the smallest gap; why a run cannot go on from there, or nothing.
+std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair& closest) {
+  try {
+    closest = smallest_gap(bodies);
+  } catch (const NumericalError& error) {  // positions beyond all bounds
+    closest.gap = std::numeric_limits<double>::quiet_NaN();
+    return error.what();
+  }
+  if (!(closest.gap < 0.0)) return {};
+  return concat("bodies ", closest.a, " and ", closest.b, " overlap by ", -closest.gap, "; try a smaller time_step",
+                contact == ContactModel::none ? ", or contact = gap" : "");
+}
+
+}  // namespace
+
+RunSummary simulate(const Suspension& initial, const SimulationOptions& options, const Observer& observe) {
+  Stepper stepper(initial, options.stepper);
+  if (options.start) stepper.restore(options.start->poses, options.start->memory);
+  Clock clock(options);
+  const NcpOptions ncp = ncp_options(options);
+  long rejected = options.start ? options.start->rejected : 0;
+  ClosestPair closest;
+
+  RunState state;  // where the present step starts
+  const auto remember = [&] {
+    if (!options.observe_state) return;
+    state = {clock.now(), {}, stepper.memory(), rejected};
+    for (const Body& body : stepper.bodies()) state.poses.push_back(body.pose);
+  };
   const auto finish = [&](const std::string& failure) {
-    observe({summary.steps, clock.time(), stepper.bodies(), closest.gap, nullptr});
-    summary.factorisations = stepper.factorisations();
-    summary.shapes = stepper.shape_count();
-    if (!failure.empty())
-      throw NumericalError(concat("step ", summary.steps, ", time ", clock.time(), ": ", failure));
-    return summary;
+    const ClockState& now = clock.now();
+    if (!failure.empty() && options.observe_state) options.observe_state(state, RunStage::failed);
+    observe({now.step, now.time, stepper.bodies(), closest.gap, nullptr});
+    if (!failure.empty()) throw NumericalError(concat("step ", now.step, ", time ", now.time, ": ", failure));
+    return RunSummary{now.step, rejected, stepper.factorisations(), stepper.shape_count()};
   };
 
+  remember();
+  std::string failure = obstacle(stepper.bodies(), options.stepper.contact, closest);
+  // Bodies that overlap from the beginning may still be parted by the first step.
+  if (!failure.empty() && (options.start || !(closest.gap < 0.0))) return finish(failure);
   while (!clock.done()) {
     clock.begin_step();
     const Suspension start = stepper.bodies();
@@ -114,7 +145,7 @@ RunSummary simulate(const Suspension& initial, const SimulationOptions& options,
       double dt = clock.step(options.adaptive ? stepper.geometric_step_limit(clock.driving()) : 0.0);
       outcome = stepper.attempt(dt, clock.driving(), ncp);
       while (!outcome.accepted && clock.reject(dt)) {
-        ++summary.rejected;
+        ++rejected;
         dt = clock.step(dt);
         outcome = stepper.attempt(dt, clock.driving(), ncp);
       }
@@ -123,19 +154,12 @@ RunSummary simulate(const Suspension& initial, const SimulationOptions& options,
     }
     if (!outcome.accepted)
       return finish(outcome.failure + (options.adaptive ? "; the step cannot be halved further" : "; adaptive = yes would halve the step"));
-    observe({summary.steps, clock.time(), start, closest.gap, &outcome});
+    observe({clock.now().step, clock.now().time, start, closest.gap, &outcome});
     clock.accept(outcome.dt, outcome.ncp_iterations);
-    ++summary.steps;
-    try {
-      closest = smallest_gap(stepper.bodies());
-    } catch (const NumericalError& error) {  // positions beyond all bounds
-      closest.gap = std::numeric_limits<double>::quiet_NaN();
-      return finish(error.what());
-    }
-    if (closest.gap < 0.0)
-      return finish(concat("bodies ", closest.a, " and ", closest.b, " overlap by ", -closest.gap,
-                           "; try a smaller time_step",
-                           options.stepper.contact == ContactModel::none ? ", or contact = gap" : ""));
+    remember();
+    failure = obstacle(stepper.bodies(), options.stepper.contact, closest);
+    if (!failure.empty()) return finish(failure);
+    if (options.observe_state) options.observe_state(state, RunStage::under_way);
   }
   return finish("");
 }

@@ -13,6 +13,29 @@ enum class TimeCounting {
   accumulated,  // t += dt while t < end_time, in floating point: may overshoot by a step
 };
 
+// Where a run stands in time between two steps.
+struct ClockState {
+  long step = 0;
+  double time = 0.0;
+  double dt = 0.0;                            // of the next step, when adaptive
+  int easy_steps = 0, since_rejection = 6;  // accepted ones, which decide when dt may grow
+};
+
+// Everything that the rest of a run depends on, between two steps: a run that starts from it makes the same
+// steps, bit for bit, as the one that it was taken from.
+struct RunState {
+  ClockState clock;
+  std::vector<Pose> poses;
+  StepperMemory memory;
+  long rejected = 0;
+};
+
+enum class RunStage {
+  under_way,  // after an accepted step
+  failed,     // the step from this state, or, if bodies overlap, this state itself ends the run
+};
+using StateObserver = std::function<void(const RunState&, RunStage)>;
+
 struct SimulationOptions {
   StepperOptions stepper;
   double time_step = 0.0;            // first and largest step when adaptive
@@ -20,6 +43,8 @@ struct SimulationOptions {
   std::optional<double> reverse_at;  // driving changes sign at the first step that starts at or after it
   TimeCounting time_counting = TimeCounting::exact;
   bool adaptive = false;             // reject, halve and grow steps; steps are cut at reverse_at and end_time
+  std::optional<RunState> start;     // to go on from, instead of time 0
+  StateObserver observe_state;       // after the other observer; it may end the run with an exception
 };
 
 // State of a run at the start of a step, with what moved it from there; without for the last state.

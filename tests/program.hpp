@@ -79,16 +79,11 @@ class Workspace {
   const std::filesystem::path& path() const { return folder_.path(); }
 
   // simulate ARGUMENTS in this folder.
-  ProgramRun run(const std::vector<std::string>& arguments) const {
-    const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
-    const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
-    // Threads that wait actively are ten times slower where other work, such as more tests, has the cores.
-    std::string command =
-        concat("cd ", shell_word(path().string()), " && OMP_WAIT_POLICY=passive ", shell_word(program()));
-    for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
-    const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
-    const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {exit_status, content_of(out), content_of(err)};
+  ProgramRun run(const std::vector<std::string>& arguments) const { return run_by("", arguments); }
+
+  // The same, but after so many seconds the program gets a signal (KILL, TERM, INT).
+  ProgramRun run_until(double seconds, const std::string& signal, const std::vector<std::string>& arguments) const {
+    return run_by(concat("timeout --preserve-status -s ", signal, " ", seconds, " "), arguments);
   }
 
   Results results(const std::filesystem::path& output = "out") const {
@@ -104,6 +99,18 @@ class Workspace {
   }
 
  private:
+  ProgramRun run_by(const std::string& starter, const std::vector<std::string>& arguments) const {
+    const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
+    const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
+    // Threads that wait actively are ten times slower where other work, such as more tests, has the cores.
+    std::string command =
+        concat("cd ", shell_word(path().string()), " && OMP_WAIT_POLICY=passive ", starter, shell_word(program()));
+    for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
+    const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
+    const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return {exit_status, content_of(out), content_of(err)};
+  }
+
   static std::string program() {
     const char* name = std::getenv("SIMULATE");
     return std::filesystem::absolute(name ? name : "build/simulate").string();

@@ -152,7 +152,8 @@ TEST_CASE("a number that is malformed, not finite or out of range is bad input")
   for (const char* line :
        {"output_every = 0", "threads = 0", "gmres_tolerance = 0", "gmres_tolerance = 2", "min_separation = -1",
         "min_separation_length = -1", "adaptive = maybe", "contact = gab", "coupling = golbal",
-        "near_singular = chauchy", "time_counting = exactly"})
+        "near_singular = chauchy", "time_counting = exactly", "refine = far", "summation = slow",
+        "fields_at = 0,1", "field_points = 1", "checkpoint_every = -1", "geometry = disc"})
     check_refused_line(line, {std::string(line).substr(0, std::string_view(line).find(' '))});
   check_refused_value("flow", "sheer");
   check_refused(workspace(), {"case.txt", "time_step=-1"}, {"time_step=-1"});
@@ -181,6 +182,28 @@ TEST_CASE("fixed bodies and a net force are bad input in unbounded flow") {
   check_refused_bodies("a,b,x,y,theta,force_x\n1,1,0,0,0,1\n1,1,9,0,0,-.5\n",
                        {"bodies.csv:", "0.5", "unbounded"});
   check_refused_bodies("a,b,x,y,theta,force_y\n1,1,0,0,0,1\n", {"bodies.csv:", "unbounded"});
+}
+
+TEST_CASE("an annulus that cannot be, or that the bodies do not fit in, is bad input") {
+  const std::string annulus =
+      "bodies = bodies.csv\ngeometry = annulus\ninner_radius = 1\nouter_radius = 4\npoints_per_body = 16\n"
+      "time_step = 0.1\nend_time = 0.3\noutput = out\n";
+  const std::string header = "a,b,x,y,theta,fixed\n";
+  const auto refused = [&](const std::string& bodies, const std::string& argument,
+                           const std::vector<std::string>& parts) {
+    check_refused(workspace(annulus, header + bodies), {"case.txt", argument}, parts);
+  };
+  const std::string inside = ".5,.5,2,0,0,0\n";
+  refused(inside, "inner_radius=0", {"'inner_radius=0'", "greater than 0"});
+  refused(inside, "inner_radius=4.5", {"case.txt:4", "outer_radius = '4'", "inner_radius = 4.5"});
+  refused(inside, "wall_points=15", {"wall_points = '15'", "16"});
+  refused(inside, "flow=shear", {"flow = 'shear'", "annulus"});
+  refused(inside, "fields_at=1", {"fields_at = '1'", "0.3"});
+  refused(inside, "geometry=unbounded", {"case.txt:8", "flow"});
+  refused(inside + ".5,.5,-3.75,0,0,0\n", "rate=1", {"bodies.csv:3", "body 1", "0.25", "outer wall of radius 4"});
+  refused(inside + ".5,.5,-1.25,0,0,1\n", "rate=1", {"bodies.csv:3", "body 1", "0.25", "inner wall of radius 1"});
+  refused(inside + ".5,.5,2.5,0,0,1\n", "rate=1", {"bodies.csv:3", "bodies 0 and 1", "overlap by 0.5"});
+  check_refused_line("outer_radius = 3", {"outer_radius", "geometry = annulus"});
 }
 
 TEST_CASE("bodies that overlap at the start are bad input with both of them, the depth and the line") {

@@ -1,0 +1,25 @@
+// The space between two concentric circular walls, as part of a suspension.
+#pragma once
+
+#include "suspension.hpp"
+
+namespace stokes {
+
+// Both walls are centred at 0; 0 < inner_radius < outer_radius.
+struct Annulus {
+  double inner_radius = 0.0, outer_radius = 0.0;
+  int wall_points = 256;  // on each wall, even
+  SurfaceMotion inner_surface{}, outer_surface{};
+};
+
+Container outer_wall(const Annulus& annulus);
+Body inner_wall(const Annulus& annulus);
+
+// The bodies between the walls: the outer wall is the suspension's container, the inner wall its last body.
+Suspension between_walls(Suspension bodies, const Annulus& annulus);
+
+// The smallest distance from a body's boundary to the wall around it, to round-off: the wall's radius less the
+// largest distance of a point of the body from the wall's centre; negative for a body that reaches beyond.
+double wall_gap(const Body& body, const Container& wall);
+
+}  // namespace stokes

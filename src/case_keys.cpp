@@ -1,0 +1,195 @@
+#include "case_keys.hpp"
+
+#include <limits>
+#include <type_traits>
+
+namespace stokes {
+
+namespace {
+
+template <class Value>
+using Words = std::vector<std::pair<std::string, Value>>;
+
+Words<Geometry> words_of(Geometry) {
+  return {{"unbounded", Geometry::unbounded}, {"annulus", Geometry::annulus}};
+}
+Words<FlowKind> words_of(FlowKind) {
+  return {{"shear", FlowKind::shear},
+          {"extension", FlowKind::extension},
+          {"taylor_green", FlowKind::taylor_green},
+          {"none", FlowKind::none}};
+}
+Words<ContactModel> words_of(ContactModel) {
+  return {{"gap", ContactModel::gap}, {"stiv", ContactModel::stiv}, {"none", ContactModel::none}};
+}
+Words<Coupling> words_of(Coupling) {
+  return {{"global", Coupling::global}, {"local", Coupling::local}};
+}
+Words<LcpMatrix> words_of(LcpMatrix) {
+  return {{"full", LcpMatrix::full}, {"pair", LcpMatrix::pair}, {"self", LcpMatrix::self}};
+}
+Words<StivGradient> words_of(StivGradient) {
+  return {{"full", StivGradient::full}, {"frozen", StivGradient::frozen}};
+}
+Words<NearSingular> words_of(NearSingular) {
+  return {{"cauchy", NearSingular::cauchy}, {"interpolation", NearSingular::interpolation}};
+}
+Words<TimeCounting> words_of(TimeCounting) {
+  return {{"accumulated", TimeCounting::accumulated}, {"exact", TimeCounting::exact}};
+}
+Words<Refine> words_of(Refine) { return {{"none", Refine::none}, {"near", Refine::near}}; }
+Words<Summation> words_of(Summation) {
+  return {{"auto", Summation::automatic}, {"direct", Summation::direct}, {"fmm", Summation::fmm}};
+}
+Words<bool> words_of(bool) { return {{"yes", true}, {"no", false}}; }
+
+template <class Value>
+std::vector<std::string> names_of(const Words<Value>& words) {
+  std::vector<std::string> names;
+  for (const auto& word : words) names.push_back(word.first);
+  return names;
+}
+
+template <class Value>
+Value parse_value(const std::string& key, const GivenValue& given) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    return given.text;
+  } else if constexpr (std::is_same_v<Value, double>) {
+    if (const auto number = parse_number(given.text)) return *number;
+    refuse(key, given, "is not a finite number; write it like 0.25 or 1e-3.");
+  } else if constexpr (std::is_same_v<Value, int>) {
+    constexpr long long limit = std::numeric_limits<int>::max();
+    const auto number = parse_integer(given.text);
+    if (number && *number >= -limit && *number <= limit) return static_cast<int>(*number);
+    refuse(key, given, concat("is not a whole number of at most ", limit, "; write it like 32."));
+  } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+    Value values;
+    if (given.text == "none") return values;
+    for (const std::string_view piece : split(given.text, ' ')) {
+      if (trim(piece).empty()) continue;
+      const auto number = parse_number(trim(piece));
+      if (!number)
+        refuse(key, given, concat("has ", quote(piece), ", which is not a finite number; write it like 0 0.5 2."));
+      values.push_back(*number);
+    }
+    return values;
+  } else {
+    const auto words = words_of(Value{});
+    for (const auto& [name, value] : words)
+      if (name == given.text) return value;
+    const auto names = names_of(words);
+    refuse(key, given,
+           concat("is unknown: it can be ", join(names, " or "), "; did you mean ",
+                  quote(nearest_name(given.text, names)), "?"));
+  }
+}
+
+template <class Value>
+std::string text_of(const Value& value) {
+  if constexpr (std::is_same_v<Value, std::string>) {
+    return value;
+  } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+    std::vector<std::string> texts;
+    for (const double number : value) texts.push_back(format_number(number));
+    return texts.empty() ? "none" : join(texts, " ");
+  } else if constexpr (std::is_arithmetic_v<Value> && !std::is_same_v<Value, bool>) {
+    return format_number(value);
+  } else {
+    for (const auto& [name, known] : words_of(value))
+      if (known == value) return name;
+    throw std::logic_error("a value of the case has no word");
+  }
+}
+
+template <class Value>
+std::string kind_of() {
+  if constexpr (std::is_same_v<Value, std::string>)
+    return "name";
+  else if constexpr (std::is_same_v<Value, double>)
+    return "number";
+  else if constexpr (std::is_same_v<Value, int>)
+    return "whole number";
+  else if constexpr (std::is_same_v<Value, std::vector<double>>)
+    return "numbers | none";
+  else
+    return join(names_of(words_of(Value{})), " | ");
+}
+
+template <class Value>
+CaseKey optional(std::string name, Value Case::*member, std::string help) {
+  const auto set = [=](Case& c, const GivenValue& given) { c.*member = parse_value<Value>(name, given); };
+  const auto get = [=](const Case& c) { return text_of(c.*member); };
+  return {name, Needed::never, Belongs::everywhere, kind_of<Value>(), std::move(help), set, get};
+}
+
+template <class Value>
+CaseKey required(std::string name, Value Case::*member, std::string help, Needed needed = Needed::always) {
+  CaseKey key = optional(std::move(name), member, std::move(help));
+  key.needed = needed;
+  return key;
+}
+
+CaseKey in_annulus(CaseKey key) {
+  key.belongs = Belongs::annulus;
+  key.help = "in an annulus: " + key.help;
+  return key;
+}
+
+// A key that need not have a value: `unset` is the word for that.
+template <class Value>
+CaseKey optional(std::string name, std::optional<Value> Case::*member, std::string unset, std::string help) {
+  const auto set = [=](Case& c, const GivenValue& given) {
+    c.*member = given.text == unset ? std::nullopt : std::optional(parse_value<Value>(name, given));
+  };
+  const auto get = [=](const Case& c) { return c.*member ? text_of(*(c.*member)) : unset; };
+  return {name, Needed::never, Belongs::everywhere, kind_of<Value>() + " | " + unset, std::move(help), set, get};
+}
+
+}  // namespace
+
+const std::vector<CaseKey>& case_keys() {
+  static const std::vector<CaseKey> table = {
+      required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file"),
+      required("flow", &Case::flow,
+               "background: shear (rate y, 0), extension rate (x, -y), taylor_green rate (cos x sin y, -sin x cos y); "
+               "none in an annulus",
+               Needed::unbounded),
+      required("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8"),
+      required("time_step", &Case::time_step, "length of a step, time"),
+      required("end_time", &Case::end_time, "when to stop, time"),
+      required("output", &Case::output, "folder of the results, relative to the working directory"),
+      optional("geometry", &Case::geometry, "of the fluid; an annulus is centred at 0"),
+      in_annulus(required("inner_radius", &Case::inner_radius, "of the inner wall, length", Needed::annulus)),
+      in_annulus(required("outer_radius", &Case::outer_radius, "of the outer wall, length", Needed::annulus)),
+      in_annulus(optional("wall_points", &Case::wall_points, "nodes on each wall, even, at least 16")),
+      in_annulus(optional("outer_angular_velocity", &Case::outer_angular_velocity, "of the outer wall, 1/time")),
+      in_annulus(optional("inner_angular_velocity", &Case::inner_angular_velocity, "of the inner wall, 1/time")),
+      in_annulus(optional("injection_rate", &Case::injection_rate, "through both walls, outwards, area/time")),
+      optional("rate", &Case::rate, "of the flow, 1/time; may be negative"),
+      optional("reverse_at", &Case::reverse_at, "none", "time from which every driving is reversed"),
+      optional("min_separation", &Case::min_separation,
+               "in units of h = longest perimeter of a body / points_per_body"),
+      optional("min_separation_length", &Case::min_separation_length, "none",
+               "length, instead of min_separation"),
+      optional("contact", &Case::contact, "model that keeps bodies apart"),
+      optional("coupling", &Case::coupling, "between the bodies in a step"),
+      optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix"),
+      optional("stiv_vertices", &Case::stiv_vertices,
+               "of each polygon with contact = stiv, at least 8; 0: 4 points_per_body"),
+      optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed"),
+      optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
+      optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
+      optional("refine", &Case::refine, "near: more nodes where bodies are too close for those they have"),
+      optional("summation", &Case::summation, "of the flows of all nodes; auto: direct for few of them"),
+      optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
+      optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
+      optional("fields_at", &Case::fields_at, "increasing times at which the flow is written out"),
+      optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid"),
+      optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
+      optional("threads", &Case::threads, "all", "at most 1024"),
+      optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time"),
+  };
+  return table;
+}
+
+}  // namespace stokes

@@ -1,0 +1,53 @@
+// The keys of a case file: how each is named, read, written and explained.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "case.hpp"
+
+namespace stokes {
+
+// A value as the user gave it, and where: "file:line" or "argument 'key=value'".
+struct GivenValue {
+  std::string text;
+  std::string where;
+};
+using GivenKeys = std::map<std::string, GivenValue>;
+
+// In which geometries a case must have a key.
+enum class Needed { always, unbounded, annulus, never };
+// In which geometries a case may have it.
+enum class Belongs { everywhere, annulus };
+
+struct CaseKey {
+  std::string name;
+  Needed needed;
+  Belongs belongs;
+  std::string kind;
+  std::string help;
+  std::function<void(Case&, const GivenValue&)> set;
+  std::function<std::string(const Case&)> get;
+
+  bool is_needed(Geometry geometry) const {
+    return needed == Needed::always || needed == (geometry == Geometry::annulus ? Needed::annulus : Needed::unbounded);
+  }
+  bool belongs_to(Geometry geometry) const { return belongs == Belongs::everywhere || geometry == Geometry::annulus; }
+};
+
+// Every key, in the order of --help.
+const std::vector<CaseKey>& case_keys();
+
+template <class... Parts>
+[[noreturn]] void fail(const std::string& where, const Parts&... parts) {
+  throw InputError(concat(where, ": ", parts...));
+}
+
+// `where: key = 'value' why`.
+[[noreturn]] inline void refuse(const std::string& key, const GivenValue& given, std::string_view why) {
+  fail(given.where, key, " = ", quote(given.text), " ", why);
+}
+
+}  // namespace stokes

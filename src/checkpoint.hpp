@@ -1,0 +1,47 @@
+// Checkpoint of an unfinished run: the file `checkpoint` among its results, from which the same command goes on
+// to the same bytes that an uninterrupted run writes.
+//
+// A text file: the run's description, its state with every double to the last bit, the position of its results,
+// and a checksum. Replaced as a whole, so that one that was killed while it was written is the one before.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "case.hpp"
+#include "recorder.hpp"
+#include "simulation.hpp"
+
+namespace stokes {
+
+struct Checkpoint {
+  RunState run;
+  RunStage stage = RunStage::under_way;
+  Recorder::Position recorder;
+};
+
+class CheckpointFile {
+ public:
+  // Of the run of a case, from the bodies it starts with, whose results are in c.output.
+  CheckpointFile(const Case& c, const Suspension& initial);
+
+  const std::filesystem::path& path() const { return path_; }
+
+  // The checkpoint to go on from, if there is one. InputError for one of another case or other bodies, which
+  // says what differs, and for one that is damaged. That of another run that failed counts as none: its case
+  // had to be changed.
+  std::optional<Checkpoint> read() const;
+
+  // NumericalError on a write error; the checkpoint before is then still there. Cost: about 160 bytes a node.
+  void write(const Checkpoint& checkpoint) const;
+
+  // Also what a killed write left; nothing if there is neither.
+  void remove() const;
+
+ private:
+  std::filesystem::path path_;
+  std::vector<std::string> description_;
+};
+
+}  // namespace stokes
