@@ -17,7 +17,7 @@ using Pair = std::pair<int, int>;
 std::vector<Pair> distinct_pairs(const std::vector<Pair>& contacts, int bodies) {
   std::vector<Pair> pairs;
   for (const auto& [a, b] : contacts) {
-    if (a == b || std::min(a, b) < 0 || std::max(a, b) >= bodies)
+    if (a == b || std::min(a, b) < 0 || a >= bodies || (b >= bodies && b != container_index))
       throw InputError(concat("a contact joins two different bodies of 0 to ", bodies - 1, "; got ", a, " and ",
                               b));
     pairs.push_back(std::minmax(a, b));
@@ -57,17 +57,27 @@ void DisjointSets::join(int first, int second) {
   parent_[high] = low;
 }
 
-void balance_clusters(const std::vector<Pair>& contacts, std::vector<Wrench>& wrenches) {
+void balance_clusters(const std::vector<Pair>& contacts, std::vector<Wrench>& wrenches,
+                      const std::vector<int>& fixed) {
   const int bodies = static_cast<int>(wrenches.size());
+  std::vector<int> held = fixed;  // one of a cluster is enough
+  for (int body : fixed)
+    if (body < 0 || body >= bodies)
+      throw InputError(concat("the fixed bodies are some of 0 to ", bodies - 1, "; got ", body));
   DisjointSets sets(bodies);
   std::vector<int> partners(bodies, 0);
   for (const auto& [a, b] : distinct_pairs(contacts, bodies)) {
+    if (b == container_index) {
+      held.push_back(a);
+      continue;
+    }
     sets.join(a, b);
     ++partners[a], ++partners[b];
   }
   std::vector<std::vector<int>> clusters(bodies);
   for (int i = 0; i < bodies; ++i)
     if (partners[i] > 0) clusters[sets.find(i)].push_back(i);
+  for (int body : held) clusters[sets.find(body)].clear();
   for (const std::vector<int>& members : clusters) {
     if (members.empty()) continue;
     // max_element returns the first of equals, which is the lowest index.

@@ -31,10 +31,16 @@ class DisjointSets {
 // has none. So the torque is left as it is where |F_old|, or |F_new - F_old|, is at most 1e-12 of the sum
 // of |F| over the others: there is nothing to scale, or the cluster was in balance.
 //
-// contacts: pairs of bodies, in any order; a pair listed more than once is one contact.
+// A cluster with a fixed body in it, or with a body that touches the container, stays as it is: these bear
+// whatever the others do not balance.
+//
+// contacts: pairs of bodies, in any order; a pair listed more than once is one contact. The second of a pair may be
+// container_index.
 // wrenches: contact force and torque of every body; changed in place. Bodies without contact keep theirs.
+// fixed: the bodies that do not move.
 // Cost O(bodies + contacts log contacts). Raises InputError for a contact of a body with itself or with one
-// that has no wrench.
-void balance_clusters(const std::vector<std::pair<int, int>>& contacts, std::vector<Wrench>& wrenches);
+// that has no wrench, and for a fixed body that has none.
+void balance_clusters(const std::vector<std::pair<int, int>>& contacts, std::vector<Wrench>& wrenches,
+                      const std::vector<int>& fixed = {});
 
 }  // namespace stokes

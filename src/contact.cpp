@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "container_gap.hpp"
 #include "neighbours.hpp"
 
 namespace stokes {
@@ -9,9 +10,10 @@ namespace stokes {
 namespace {
 
 constexpr double relative_tolerance = 1e-4;  // of the separation, at active contacts
-// When no separation is asked for: of the smallest semi-axis, and of the distance from the origin, whose
+// When no separation is asked for: of the smallest semi-axis, below which the sum over nodes that face each other
+// loses more digits than a solution to 1e-8 can spare, and of the distance from the origin, whose
 // round-off the tolerance must exceed.
-constexpr double smallest_separation = 1e-8, smallest_of_extent = 1e-10;
+constexpr double smallest_separation = 1e-7, smallest_of_extent = 1e-10;
 
 }  // namespace
 
@@ -22,12 +24,24 @@ GapCollector::GapCollector(const Suspension& start, double separation) : start_(
       smallest = std::min(smallest, body.shape.inradius());
       extent = std::max(extent, std::abs(body.pose.centre));
     }
+    if (start.container) extent = std::max(extent, std::abs(start.container->centre) + start.container->radius);
     separation_ = std::max(smallest_separation * smallest, smallest_of_extent * extent);
   }
   tolerance_ = relative_tolerance * separation_;
 }
 
+// Where the body ends inside, every plane that touches the wall is behind it: a hit on the way adds nothing.
+ContactConstraint GapCollector::evaluate_wall(int a, const Pose& trial) const {
+  const Body& body = start_[a];
+  const Container& container = *start_.container;
+  const Gap before = gap(body, container), after = gap(body.shape, trial, container);
+  const bool alike = dot(before.normal, after.normal) > 0.5;
+  return {a, container_index, 0, after.value - separation_, tolerance_, gradient(after, trial),
+          alike ? gradient(before, body.pose) : push_from_wall(body.shape, body.pose, container, after.normal)};
+}
+
 ContactConstraint GapCollector::evaluate(int a, int b, const std::vector<Pose>& trial) const {
+  if (b == container_index) return evaluate_wall(a, trial[a]);
   const Body &body_a = start_[a], &body_b = start_[b];
   const Gap before = gap(body_a, body_b);
   const Gap after = gap(body_a.shape, trial[a], body_b.shape, trial[b]);
@@ -50,14 +64,7 @@ ContactConstraint GapCollector::evaluate(int a, int b, const std::vector<Pose>& 
 
 std::vector<ContactConstraint> GapCollector::collect(const std::vector<Pose>& trial,
                                                      const std::vector<std::pair<int, int>>& tracked) const {
-  std::vector<Complex> from, to;
-  std::vector<double> radius;
-  for (std::size_t i = 0; i < start_.size(); ++i) {
-    from.push_back(start_[i].pose.centre);
-    to.push_back(trial[i].centre);
-    radius.push_back(start_[i].shape.circumradius());
-  }
-  std::vector<std::pair<int, int>> pairs = neighbour_pairs(from, to, radius, separation_);
+  const std::vector<std::pair<int, int>> pairs = contact_candidates(start_, trial, separation_);
   std::vector<std::pair<int, int>> all;
   std::set_union(pairs.begin(), pairs.end(), tracked.begin(), tracked.end(), std::back_inserter(all));
   std::vector<ContactConstraint> contacts;

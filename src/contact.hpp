@@ -3,6 +3,9 @@
 // A constraint is a value that must not be negative at the end of the step, its gradient with respect to
 // the two bodies' poses there, and the generalised force that a unit multiplier exerts. The
 // complementarity solver (ncp.hpp) knows constraints only in this form.
+//
+// One of the bodies may be fixed, and instead of the second there may be the container. The entries of gradient
+// and force that belong to such a partner are those of a body: its reaction, about its centre. Nothing moves it.
 #pragma once
 
 #include <map>
@@ -21,7 +24,7 @@ enum class ContactModel {
 };
 
 struct ContactConstraint {
-  int a, b;              // bodies, a < b
+  int a, b;              // bodies, a < b; b may be container_index
   int region;            // several contacts of one pair are told apart by this number, 0, 1, ...
   double value;          // satisfied when >= 0; an active contact aims at 0
   double tolerance;      // |value| below it counts as 0
@@ -35,10 +38,15 @@ struct ContactConstraint {
 //   that met first along their normal;
 //   force = gradient of the gap at the START of the step, which makes the two forces of a contact
 //   opposite and collinear in the configuration in which the fluid is solved.
+// Two fixed bodies are no pair. Of a mobile body and the container the gap at the trial pose is all there is to
+// know: nobody passes through the wall and comes back. A step that turns the normal by more than 60 degrees
+// started too far from the wall to show where it would be met; its force is along the normal at the trial pose.
+// A body so flat that it can touch the wall with both ends (container_gap.hpp) has one contact there all the same:
+// iterations that press now one end and now the other against the wall may fail to settle.
 class GapCollector {
  public:
-  // separation >= 0. With 0 the bodies are kept 1e-8 of the smallest semi-axis apart,
-  // or 1e-10 of the largest distance of a centre from the origin.
+  // separation >= 0. With 0 the bodies are kept 1e-7 of the smallest semi-axis apart,
+  // or 1e-10 of the largest distance of a centre or of the container's wall from the origin.
   GapCollector(const Suspension& start, double separation);
 
   double separation() const { return separation_; }
@@ -50,6 +58,7 @@ class GapCollector {
 
  private:
   ContactConstraint evaluate(int a, int b, const std::vector<Pose>& trial) const;
+  ContactConstraint evaluate_wall(int a, const Pose& trial) const;
 
   const Suspension& start_;
   double separation_, tolerance_;

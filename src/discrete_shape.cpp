@@ -1,5 +1,8 @@
 #include "discrete_shape.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <eigen3/Eigen/LU>
 
 #include "completion.hpp"
@@ -127,11 +130,12 @@ double DiscreteShape::flux_part(const Complex* density) const {
   return -0.5 / curve.length() * flux;
 }
 
-double near_distance(const DiscreteShape& shape) { return 7.0 * shape.curve.max_spacing(); }
+double near_distance(const DiscreteShape& shape, double accuracy) {
+  return 0.7 * std::clamp(-std::log10(accuracy), 4.0, 12.0) * shape.curve.max_spacing();
+}
 double near_distance_of_gradient(const DiscreteShape& shape) { return 8.0 * shape.curve.max_spacing(); }
 
-std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z) {
-  const double limit = near_distance(shape);
+std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z, double limit) {
   std::vector<int> rows;
   for (int i = 0; i < static_cast<int>(z.size()); ++i)
     for (int k = 0; k < shape.size(); ++k)

@@ -98,13 +98,13 @@ struct PlacedShape {
   Complex local(Complex x) const { return std::conj(axis) * (x - pose.centre); }
 };
 
-// Rows of points z (frame of the shape) that the plain trapezoid rule does not resolve: nearer than seven of
-// the curve's largest point spacings. Beyond, it is exact to 1e-10 or better (on a disc the error decays
-// like (1 + d/a)^-N).
-double near_distance(const DiscreteShape& shape);
-// Pressure and gradient take one spacing more for the same 1e-10.
+// Distance from which on the plain trapezoid rule gives the velocity to an accuracy: 0.7 of the curve's largest point
+// spacings for each digit (on a disc the error decays like (1 + d/a)^-N).
+double near_distance(const DiscreteShape& shape, double accuracy);
+// Pressure and gradient to 1e-10.
 double near_distance_of_gradient(const DiscreteShape& shape);
-std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z);
+// Rows of points z (frame of the shape) nearer than that.
+std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z, double distance);
 
 // What the close evaluation adds to the plain trapezoid rule at points z.
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z);

@@ -22,6 +22,8 @@ struct Candidate {
   double committed = 0.0;  // multipliers of forces that are no longer unknowns
 };
 
+constexpr double largest_amplification = 1e6;  // a wedge that is as slim is a jam
+
 using Identity = std::tuple<int, int, int>;
 Identity identity(const ContactConstraint& c) { return {c.a, c.b, c.region}; }
 
@@ -29,22 +31,28 @@ bool same(const GapGradient& u, const GapGradient& v) {
   return u.centre_a == v.centre_a && u.centre_b == v.centre_b && u.angle_a == v.angle_a && u.angle_b == v.angle_b;
 }
 
-void add_wrench(std::vector<Wrench>& wrenches, const ContactConstraint& c, const GapGradient& force, double factor) {
-  wrenches[c.a].force += factor * force.centre_a, wrenches[c.a].torque += factor * force.angle_a;
-  wrenches[c.b].force += factor * force.centre_b, wrenches[c.b].torque += factor * force.angle_b;
-}
+// Contact force and torque on every body and on the container.
+struct ContactWrenches {
+  std::vector<Wrench> bodies;
+  Wrench container;
 
-// Rate of a value with the given gradient for the bodies of a constraint when they move with `velocity`.
-double rate(const ContactConstraint& c, const GapGradient& gradient, const std::vector<RigidVelocity>& velocity) {
-  return dot(gradient.centre_a, velocity[c.a].velocity) + gradient.angle_a * velocity[c.a].omega +
-         dot(gradient.centre_b, velocity[c.b].velocity) + gradient.angle_b * velocity[c.b].omega;
-}
-double rate(const ContactConstraint& c, const std::vector<RigidVelocity>& velocity) {
-  return rate(c, c.gradient, velocity);
-}
+  void add(const ContactConstraint& c, const GapGradient& force, double factor) {
+    Wrench &on_a = bodies[c.a], &on_b = c.b == container_index ? container : bodies[c.b];
+    on_a.force += factor * force.centre_a, on_a.torque += factor * force.angle_a;
+    on_b.force += factor * force.centre_b, on_b.torque += factor * force.angle_b;
+  }
+};
 
 std::string name(const ContactConstraint& c) {
-  return concat("bodies ", c.a, " and ", c.b, " (constraint ", c.value, ", tolerance ", c.tolerance, ")");
+  return concat(pair_name(c.a, c.b), " (constraint ", c.value, ", tolerance ", c.tolerance, ")");
+}
+
+// In units of sqrt(B_ll), which make it independent of those of single contacts, the largest multiplier over the
+// worst violation. A jam that rounding makes solvable needs the reciprocal of that rounding.
+double amplification(const Matrix& B, const Vector& b, const Vector& z) {
+  const Vector scale = B.diagonal().cwiseSqrt();
+  const double violation = -b.cwiseQuotient(scale).minCoeff();
+  return violation > 0.0 ? z.cwiseProduct(scale).maxCoeff() / violation : 0.0;
 }
 
 class Iteration {
@@ -52,7 +60,10 @@ class Iteration {
   Iteration(const Suspension& start, const Response& contact_free, double dt, const ConstraintFunction& constraints,
             const ContactMobility& mobility, const BalanceFunction& balance)
       : start_(start), free_(contact_free), dt_(dt), constraints_(constraints), mobility_(mobility), balance_(balance),
-        base_(contact_free), base_wrenches_(start.size()) {}
+        base_(contact_free), base_wrenches_{std::vector<Wrench>(start.size()), {}} {
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (start[i].fixed) fixed_.push_back(static_cast<int>(i));
+  }
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
   void update() {
@@ -130,9 +141,9 @@ class Iteration {
     for (Candidate& c : candidates_) {
       if (!c.column.velocity.empty() && same(c.force, c.constraint.force)) continue;
       c.force = c.constraint.force;
-      std::vector<Wrench> unit(start_.size());
-      add_wrench(unit, c.constraint, c.force, 1.0);
-      c.column = mobility_.column(unit);
+      ContactWrenches unit{std::vector<Wrench>(start_.size()), {}};
+      unit.add(c.constraint, c.force, 1.0);
+      c.column = mobility_.column(on_fluid(unit));
     }
     if (const std::string problem = unphysical(options.check_mobility && !mobility_.response); !problem.empty()) {
       unresolved = true;
@@ -147,13 +158,17 @@ class Iteration {
                       " does not part them at the end of the step (mobility ", B(l, l) / dt_,
                       "): the step takes them past each other; try a smaller time_step");
     const LcpResult lcp = solve_lcp(B, b);
+    if (const double size = amplification(B, b, lcp.z); size > largest_amplification)
+      return concat("jammed: the contact forces would have to be ", size, " times those that part a pair by itself, ",
+                    "against at most ", largest_amplification, ". Worst: ", name(worst()->constraint));
     if (!lcp.solved) return concat(lcp.message, " Worst: ", name(worst()->constraint));
     for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
     return {};
   }
 
   void finish(NcpResult& result) {
-    result.wrenches = std::move(wrenches_);
+    result.wrenches = std::move(wrenches_.bodies);
+    result.container_wrench = wrenches_.container;
     for (const Candidate& c : candidates_)
       if (c.multiplier + c.committed > 0.0) result.contacts.push_back({c.constraint, c.multiplier + c.committed});
     result.motion = std::move(motion_);
@@ -161,6 +176,29 @@ class Iteration {
   }
 
  private:
+  // Rate of a constraint's value, or of another with the given gradient, when the mobile bodies move with `velocity`.
+  double rate(const ContactConstraint& c, const std::vector<RigidVelocity>& velocity) const {
+    return rate(c, c.gradient, velocity);
+  }
+  double rate(const ContactConstraint& c, const GapGradient& gradient, const std::vector<RigidVelocity>& velocity) const {
+    double sum = 0.0;
+    const auto add = [&](int body, Complex centre, double angle) {
+      if (body == container_index || start_[body].fixed) return;
+      sum += dot(centre, velocity[body].velocity);
+      sum += angle * velocity[body].omega;
+    };
+    add(c.a, gradient.centre_a, gradient.angle_a);
+    add(c.b, gradient.centre_b, gradient.angle_b);
+    return sum;
+  }
+
+  // What of the wrenches moves the fluid: not what the fixed bodies bear.
+  std::vector<Wrench> on_fluid(const ContactWrenches& wrenches) const {
+    std::vector<Wrench> result = wrenches.bodies;
+    for (int i : fixed_) result[i] = {};
+    return result;
+  }
+
   void add_motion(const Response& response, double factor) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       motion_.velocity[i].velocity += factor * response.velocity[i].velocity;
@@ -175,15 +213,15 @@ class Iteration {
     std::vector<std::pair<int, int>> pairs;
     for (const Candidate& c : candidates_)
       if (c.multiplier + c.committed > 0.0) pairs.push_back({c.constraint.a, c.constraint.b});
-    std::vector<Wrench> balanced = wrenches_;
-    balance_(pairs, balanced);
+    std::vector<Wrench> balanced = wrenches_.bodies;
+    balance_(pairs, balanced, fixed_);
     double scale = 0.0, change = 0.0;
     for (std::size_t i = 0; i < balanced.size(); ++i) {
-      scale = std::max(scale, std::abs(wrenches_[i].force));
-      change = std::max(change, std::abs(balanced[i].force - wrenches_[i].force));
+      scale = std::max(scale, std::abs(wrenches_.bodies[i].force));
+      change = std::max(change, std::abs(balanced[i].force - wrenches_.bodies[i].force));
     }
     if (change <= 1e-12 * scale) return false;
-    wrenches_ = std::move(balanced);
+    wrenches_.bodies = std::move(balanced);
     return true;
   }
 
@@ -192,11 +230,11 @@ class Iteration {
     bool forced = false;
     for (const Candidate& c : candidates_) {
       forced = forced || c.multiplier + c.committed > 0.0;
-      if (c.multiplier > 0.0) add_wrench(wrenches_, c.constraint, c.force, c.multiplier);
+      if (c.multiplier > 0.0) wrenches_.add(c.constraint, c.force, c.multiplier);
     }
     if (forced && (balance_changes() || mobility_.response)) {
       motion_ = free_;
-      add_motion((mobility_.response ? mobility_.response : mobility_.column)(wrenches_), 1.0);
+      add_motion((mobility_.response ? mobility_.response : mobility_.column)(on_fluid(wrenches_)), 1.0);
     } else {
       motion_ = base_;
       for (const Candidate& c : candidates_)
@@ -204,7 +242,7 @@ class Iteration {
     }
     poses_.clear();
     for (std::size_t i = 0; i < start_.size(); ++i)
-      poses_.push_back(advance(start_[i].pose, motion_.velocity[i], dt_));
+      poses_.push_back(start_[i].fixed ? start_[i].pose : advance(start_[i].pose, motion_.velocity[i], dt_));
   }
 
   const Suspension& start_;
@@ -213,11 +251,12 @@ class Iteration {
   const ConstraintFunction& constraints_;
   const ContactMobility& mobility_;
   const BalanceFunction& balance_;
+  std::vector<int> fixed_;             // bodies
   std::vector<Candidate> candidates_;  // sorted by pair and region
   Response base_;                      // motion with the committed forces
-  std::vector<Wrench> base_wrenches_;  // and these
+  ContactWrenches base_wrenches_;      // and these
   Response motion_;
-  std::vector<Wrench> wrenches_;  // contact force and torque on every body
+  ContactWrenches wrenches_;
   std::vector<Pose> poses_;
 };
 

@@ -4,6 +4,10 @@
 //   0 <= value_l - r_l + Sum_k B_lk lambda_k  perp  lambda_l >= 0,  B_lk = dt grad_l . M' f_k,
 // where M' is M or an approximation of it and r_l = dt grad_l . M' (present contact forces). With M' = M the
 // fluid is linear, so that once M f_k is known an iteration costs no Stokes solve.
+//
+// Fixed bodies have no mobility: they stay where they are, and the forces on them and on the container do
+// nothing to the fluid. They are reactions, only reported. Between obstacles a body may be jammed: then no forces
+// solve the problem, which is a failure like others.
 #pragma once
 
 #include <functional>
@@ -18,7 +22,7 @@ namespace stokes {
 
 // Contact-free velocities or those of one contact, with the density that belongs to them.
 struct Response {
-  std::vector<RigidVelocity> velocity;
+  std::vector<RigidVelocity> velocity;  // of a fixed body 0
   ComplexVector density;
 };
 
@@ -27,8 +31,9 @@ struct ActiveContact {
   double multiplier;             // > 0, a force
 };
 
-// Changes the contact wrenches of all bodies, given the pairs in contact (balance_clusters).
-using BalanceFunction = std::function<void(const std::vector<std::pair<int, int>>&, std::vector<Wrench>&)>;
+// Changes the contact wrenches of all bodies, given the pairs in contact and the fixed bodies (balance_clusters).
+using BalanceFunction =
+    std::function<void(const std::vector<std::pair<int, int>>&, std::vector<Wrench>&, const std::vector<int>&)>;
 
 struct NcpOptions {
   int max_iterations = 50;
@@ -47,13 +52,14 @@ struct NcpResult {
   std::vector<ActiveContact> contacts; // those with a positive multiplier
   std::vector<Pose> poses;             // at the end of the step
   Response motion;                     // what moves the bodies there
-  std::vector<Wrench> wrenches;        // contact force and torque on each body
+  std::vector<Wrench> wrenches;        // contact force and torque on each body, fixed or not
+  Wrench container_wrench;             // and on the container, about its centre
 };
 
 // Violated and tracked constraints at trial poses (GapCollector::collect).
 using ConstraintFunction =
     std::function<std::vector<ContactConstraint>(const std::vector<Pose>&, const std::vector<std::pair<int, int>>&)>;
-// M f: the response of the suspension to given forces and torques.
+// M f: the response of the suspension to given forces and torques, zero for fixed bodies.
 using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
 
 struct ContactMobility {

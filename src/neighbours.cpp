@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "container_gap.hpp"
 #include "gap.hpp"
 
 namespace stokes {
@@ -168,28 +169,62 @@ std::vector<std::pair<int, int>> neighbour_pairs(const std::vector<Complex>& sta
   return pairs;
 }
 
+std::vector<std::pair<int, int>> contact_candidates(const Suspension& start, const std::vector<Pose>& trial,
+                                                    double distance) {
+  std::vector<Complex> from, to;
+  std::vector<double> radius;
+  for (const Body& body : start) {
+    from.push_back(body.pose.centre);
+    radius.push_back(body.shape.circumradius());
+  }
+  for (const Pose& pose : trial) to.push_back(pose.centre);
+  std::vector<std::pair<int, int>> pairs = neighbour_pairs(from, to, radius, distance);
+  std::erase_if(pairs, [&](const auto& pair) { return start[pair.first].fixed && start[pair.second].fixed; });
+  if (!start.container) return pairs;
+  const Container& container = *start.container;
+  for (int i = 0; i < static_cast<int>(start.size()); ++i)
+    if (!start[i].fixed && container.radius - std::abs(to[i] - container.centre) - radius[i] <= distance)
+      pairs.emplace_back(i, container_index);
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+namespace {
+
+// The gap of the circumscribed circles of a pair.
+double between_circles(const Suspension& suspension, int a, int b) {
+  const Complex centre = suspension[a].pose.centre;
+  const double radius = suspension[a].shape.circumradius();
+  if (b == container_index)
+    return suspension.container->radius - std::abs(centre - suspension.container->centre) - radius;
+  return std::abs(suspension[b].pose.centre - centre) - radius - suspension[b].shape.circumradius();
+}
+
+}  // namespace
+
 ClosestPair smallest_gap(const Suspension& suspension) {
   ClosestPair closest;
-  if (suspension.size() < 2) return closest;
-  std::vector<Complex> centre;
-  std::vector<double> radius;
+  std::vector<Pose> poses;
   double scale = 0.0;
   for (const Body& body : suspension) {
-    centre.push_back(body.pose.centre);
-    radius.push_back(body.shape.circumradius());
-    scale = std::max(scale, radius.back());
+    poses.push_back(body.pose);
+    if (!body.fixed) scale = std::max(scale, body.shape.circumradius());
   }
+  // Without a mobile body, or with nothing else, there is no pair, however far one looks.
+  if (scale == 0.0 || (suspension.size() < 2 && !suspension.container)) return closest;
 
   // No gap is below that of the circumscribed circles. So the pairs whose circles are within `distance`
   // hold the smallest gap as soon as one of theirs is at most `distance`.
   double distance = 0.0;
   for (;;) {
-    for (const auto& [i, j] : neighbour_pairs(centre, centre, radius, distance)) {
-      if (std::abs(centre[j] - centre[i]) - radius[i] - radius[j] > closest.gap) continue;
-      const double value = gap(suspension[i], suspension[j]).value;
+    for (const auto& [i, j] : contact_candidates(suspension, poses, distance)) {
+      const Body& body = suspension[i];
+      if (between_circles(suspension, i, j) > closest.gap) continue;
+      const double value = j == container_index ? gap(body, *suspension.container).value
+                                                : gap(body, suspension[j]).value;
       if (std::isnan(value)) {
-        throw NumericalError("smallest gap: the gap between bodies " + std::to_string(i) + " and " +
-                             std::to_string(j) + " is not a number; check their angles and semi-axes");
+        throw NumericalError("smallest gap: the gap between " + pair_name(i, j) +
+                             " is not a number; check their angles and semi-axes");
       }
       if (std::tie(value, i, j) < std::tie(closest.gap, closest.a, closest.b)) closest = {i, j, value};
     }

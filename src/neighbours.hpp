@@ -1,4 +1,4 @@
-// Pairs of bodies that may touch, and the closest pair, without looking at all pairs.
+// Pairs of bodies that may touch, each other or the container, and the closest pair, without looking at all pairs.
 #pragma once
 
 #include <limits>
@@ -23,15 +23,22 @@ std::vector<std::pair<int, int>> neighbour_pairs(const std::vector<Complex>& sta
                                                  const std::vector<Complex>& end,
                                                  const std::vector<double>& radius, double distance);
 
+// What may touch in a step from the suspension's poses to `trial`: the pairs of bodies, not both fixed, whose
+// circumscribed circles come within `distance`, and with (a, container_index) the mobile bodies a whose circle
+// ends within `distance` of the container's wall, or across it. In increasing order.
+// trial: one pose per body. Cost and errors as above.
+std::vector<std::pair<int, int>> contact_candidates(const Suspension& start, const std::vector<Pose>& trial,
+                                                    double distance);
+
 struct ClosestPair {
   int a = -1, b = -1;
   double gap = std::numeric_limits<double>::infinity();
 };
 
-// The pair a < b of smallest signed gap, the first such pair in increasing order if several tie; the
-// defaults above for fewer than two bodies. Cost: a few neighbour searches and a gap for each pair of bodies
-// closer, as circles, than the smallest gap found before it. Raises NumericalError for a gap that is not a
-// number.
+// The pair a < b of smallest signed gap, the first such pair in increasing order if several tie; b may be
+// container_index. Two fixed bodies, or a fixed body and the container, are no pair; the defaults above if there is
+// none. Cost: a few neighbour searches and a gap for each pair closer, as circles, than the smallest gap found
+// before it. Raises NumericalError for a gap that is not a number.
 ClosestPair smallest_gap(const Suspension& suspension);
 
 }  // namespace stokes

@@ -224,6 +224,12 @@ void Stepper::remember(Configuration& now, ComplexVector total) {
 void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome) {
   outcome.contacts = std::move(result.contacts);
   outcome.contact_wrench = std::move(result.wrenches);
+  outcome.container_contact = result.container_wrench;
+  outcome.reaction = now.system.reactions(result.motion.density);
+  std::vector<Wrench> driving = outcome.contact_wrench;
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    driving[i].force += bodies_[i].force, driving[i].torque += bodies_[i].torque;
+  outcome.container = now.system.container_wrench(result.motion.density, driving);
   outcome.density_tail = now.system.density_tail(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
@@ -243,7 +249,7 @@ double Stepper::geometric_step_limit(double driving) {
     if (u[i].omega != 0.0) limit = std::min(limit, 0.2 / std::abs(u[i].omega));
     centres.push_back(bodies_[i].pose.centre);
     radii.push_back(bodies_[i].shape.circumradius());
-    width = std::max(width, bodies_[i].shape.inradius());
+    if (!bodies_[i].fixed) width = std::max(width, bodies_[i].shape.inradius());
   }
   for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, width)) {
     const double speed = std::abs(u[i].velocity - u[j].velocity);

@@ -56,7 +56,10 @@ struct StepOutcome {
   int gmres_iterations = 0, ncp_iterations = 0;
   std::vector<ActiveContact> contacts;
   std::vector<RigidVelocity> velocity;
-  std::vector<Wrench> contact_wrench;
+  std::vector<Wrench> contact_wrench;  // on every body
+  Wrench container_contact;            // on the container, about its centre
+  std::vector<Wrench> reaction;        // of fixed bodies on the fluid
+  Wrench container;                    // of the container on the fluid, about its centre
   double density_tail = 0.0;
 };
 

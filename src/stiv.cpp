@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cluster.hpp"
 #include "curve.hpp"
@@ -40,22 +41,62 @@ std::vector<double> vertex_lengths(const std::vector<Complex>& polygon) {
   return lengths;
 }
 
-// Joins the vertices of a contact region: body a's are 0 to count - 1, body b's the `count` after them.
-// moving, target: where the vertices of the entering body and of the other one begin.
-void join_regions(const std::vector<VertexHit>& hits, int count, int moving, int target, DisjointSets& sets) {
-  const auto next = [count](int k) { return k + 1 == count ? 0 : k + 1; };
+// A polygon's share of the numbers given to the vertices of all polygons in contact.
+struct Range {
+  int first, count;
+  int next(int k) const { return k + 1 == count ? 0 : k + 1; }
+};
+
+// Joins hit vertices that are neighbours on their polygon.
+template <class Hit>
+void join_neighbours(const std::vector<Hit>& hits, Range moving, DisjointSets& sets) {
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const int vertex = moving + hits[i].vertex;
-    sets.join(vertex, target + hits[i].edge);
-    sets.join(vertex, target + next(hits[i].edge));
-    const VertexHit& following = hits[i + 1 == hits.size() ? 0 : i + 1];
-    if (following.vertex == next(hits[i].vertex)) sets.join(vertex, moving + following.vertex);
+    const Hit& following = hits[i + 1 == hits.size() ? 0 : i + 1];
+    if (following.vertex == moving.next(hits[i].vertex))
+      sets.join(moving.first + hits[i].vertex, moving.first + following.vertex);
   }
 }
 
+// Joins hit vertices with those of the edges they enter through.
+void join_edges(const std::vector<VertexHit>& hits, Range moving, Range target, DisjointSets& sets) {
+  for (const VertexHit& hit : hits) {
+    sets.join(moving.first + hit.vertex, target.first + hit.edge);
+    sets.join(moving.first + hit.vertex, target.first + target.next(hit.edge));
+  }
+}
+
+// Names regions by their lowest vertices and numbers them in that order.
+class RegionNames {
+ public:
+  explicit RegionNames(DisjointSets sets) : sets_(std::move(sets)) {}
+
+  template <class Hit>
+  void add(const std::vector<Hit>& hits, Range moving) {
+    for (const Hit& hit : hits) names_.push_back(sets_.find(moving.first + hit.vertex));
+    std::sort(names_.begin(), names_.end());
+    names_.erase(std::unique(names_.begin(), names_.end()), names_.end());
+  }
+
+  int number_of(int vertex) {
+    return static_cast<int>(std::lower_bound(names_.begin(), names_.end(), sets_.find(vertex)) - names_.begin());
+  }
+
+  // The constraints of the regions, nothing added to them yet.
+  std::vector<ContactConstraint> constraints(int a, int b, double tolerance) const {
+    std::vector<ContactConstraint> result;
+    for (int i = 0; i < static_cast<int>(names_.size()); ++i) result.push_back({a, b, i, 0.0, tolerance, {}, {}});
+    return result;
+  }
+
+ private:
+  DisjointSets sets_;
+  std::vector<int> names_;
+};
+
 // Value and gradient of one hit, of a vertex of a on b or the reverse, added to a region's.
 // arm_p, arm_q: P and Q at the end, each from the centre of its own body.
-void add(const VertexHit& hit, bool vertex_of_a, double ds, Complex arm_p, Complex arm_q, StivGradient choice,
+template <class Hit>
+void add(const Hit& hit, bool vertex_of_a, double ds, Complex arm_p, Complex arm_q, StivGradient choice,
          ContactConstraint& region) {
   region.value += ds * hit.interval;
   const Complex pull = (choice == StivGradient::frozen ? ds * (1.0 - hit.tau) : ds) * hit.normal;
@@ -76,8 +117,13 @@ StivCollector::StivCollector(const Suspension& start, double separation, const S
                             options.vertices));
   if (!(separation >= 0.0))
     throw InputError(concat("the minimum separation must not be negative; got ", separation));
+  double shortest = std::numeric_limits<double>::infinity();  // perimeter of a mobile body
+  for (const Body& body : start)
+    if (!body.fixed) shortest = std::min(shortest, body.shape.perimeter());
   for (const Body& body : start) {
-    const auto polygon = offset_polygon(body.shape, options.vertices, 0.5 * separation);
+    const double multiple = body.fixed ? std::max(1.0, std::ceil(body.shape.perimeter() / shortest)) : 1.0;
+    const int vertices = options.vertices * static_cast<int>(multiple);
+    const auto polygon = offset_polygon(body.shape, vertices, 0.5 * separation);
     outline_.push_back({polygon, moved(polygon, body.pose.axis(), 0.0), vertex_lengths(polygon)});
   }
 }
@@ -92,29 +138,24 @@ std::vector<ContactConstraint> StivCollector::collect_pair(int a, int b, const s
   const std::vector<VertexHit> hits_of_a = vertex_hits(first, second), hits_of_b = vertex_hits(second, first);
   if (hits_of_a.empty() && hits_of_b.empty()) return {};
 
-  const int count = options_.vertices;
-  DisjointSets sets(2 * count);
-  join_regions(hits_of_a, count, 0, count, sets);
-  join_regions(hits_of_b, count, count, 0, sets);
-  std::vector<int> names;  // of the regions: their lowest vertices
-  for (const VertexHit& hit : hits_of_a) names.push_back(sets.find(hit.vertex));
-  for (const VertexHit& hit : hits_of_b) names.push_back(sets.find(count + hit.vertex));
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
+  const Range of_a{0, static_cast<int>(first.end.size())}, of_b{of_a.count, static_cast<int>(second.end.size())};
+  DisjointSets sets(of_a.count + of_b.count);
+  join_neighbours(hits_of_a, of_a, sets), join_edges(hits_of_a, of_a, of_b, sets);
+  join_neighbours(hits_of_b, of_b, sets), join_edges(hits_of_b, of_b, of_a, sets);
+  RegionNames names(std::move(sets));
+  names.add(hits_of_a, of_a), names.add(hits_of_b, of_b);
 
   const double tolerance = relative_tolerance * start_[a].shape.circumradius() * start_[b].shape.circumradius();
-  std::vector<ContactConstraint> regions;
-  for (int i = 0; i < static_cast<int>(names.size()); ++i) regions.push_back({a, b, i, 0.0, tolerance, {}, {}});
-  const auto add_all = [&](const std::vector<VertexHit>& hits, bool of_a) {
-    const MovingPolygon &moving = of_a ? first : second, &target = of_a ? second : first;
-    const Complex moving_centre = of_a ? 0.0 : shift_end, target_centre = of_a ? shift_end : 0.0;
+  std::vector<ContactConstraint> regions = names.constraints(a, b, tolerance);
+  const auto add_all = [&](const std::vector<VertexHit>& hits, bool entering_a) {
+    const MovingPolygon &moving = entering_a ? first : second, &target = entering_a ? second : first;
+    const Range vertices = entering_a ? of_a : of_b, edges = entering_a ? of_b : of_a;
+    const Complex moving_centre = entering_a ? 0.0 : shift_end, target_centre = entering_a ? shift_end : 0.0;
     for (const VertexHit& hit : hits) {
-      const int name = sets.find(hit.vertex + (of_a ? 0 : count));
-      const Complex q0 = target.end[hit.edge], q1 = target.end[hit.edge + 1 == count ? 0 : hit.edge + 1];
+      const Complex q0 = target.end[hit.edge], q1 = target.end[edges.next(hit.edge)];
       const Complex q = (1.0 - hit.sigma) * q0 + hit.sigma * q1;
-      add(hit, of_a, outline_[of_a ? a : b].arclength[hit.vertex], moving.end[hit.vertex] - moving_centre,
-          q - target_centre, options_.gradient,
-          regions[std::lower_bound(names.begin(), names.end(), name) - names.begin()]);
+      add(hit, entering_a, outline_[entering_a ? a : b].arclength[hit.vertex], moving.end[hit.vertex] - moving_centre,
+          q - target_centre, options_.gradient, regions[names.number_of(vertices.first + hit.vertex)]);
     }
   };
   add_all(hits_of_a, true);
@@ -123,18 +164,32 @@ std::vector<ContactConstraint> StivCollector::collect_pair(int a, int b, const s
   return regions;
 }
 
+// Seen from the centre of the container.
+std::vector<ContactConstraint> StivCollector::collect_wall(int a, const Pose& trial) const {
+  const Container& container = *start_.container;
+  const Complex from = start_[a].pose.centre - container.centre, to = trial.centre - container.centre;
+  const MovingPolygon polygon{moved(outline_[a].start, 1.0, from), moved(outline_[a].body_frame, trial.axis(), to)};
+  const std::vector<WallHit> hits = wall_hits(polygon, container.radius - 0.5 * separation_);
+  if (hits.empty()) return {};
+
+  const Range vertices{0, static_cast<int>(polygon.end.size())};
+  DisjointSets sets(vertices.count);
+  join_neighbours(hits, vertices, sets);
+  RegionNames names(std::move(sets));
+  names.add(hits, vertices);
+  const double tolerance = relative_tolerance * start_[a].shape.circumradius() * container.radius;
+  std::vector<ContactConstraint> regions = names.constraints(a, container_index, tolerance);
+  for (const WallHit& hit : hits)
+    add(hit, true, outline_[a].arclength[hit.vertex], polygon.end[hit.vertex] - to, hit.point, options_.gradient,
+        regions[names.number_of(hit.vertex)]);
+  for (ContactConstraint& region : regions) region.force = region.gradient;
+  return regions;
+}
+
 std::vector<ContactConstraint> StivCollector::collect(const std::vector<Pose>& trial) const {
-  std::vector<Complex> from, to;
-  std::vector<double> radius;
-  for (const Body& body : start_) {
-    from.push_back(body.pose.centre);
-    radius.push_back(body.shape.circumradius());
-  }
-  for (const Pose& pose : trial) to.push_back(pose.centre);
-  const auto pairs = neighbour_pairs(from, to, radius, separation_);
   std::vector<ContactConstraint> contacts;
-  for (const auto& [a, b] : pairs) {
-    const std::vector<ContactConstraint> regions = collect_pair(a, b, trial);
+  for (const auto& [a, b] : contact_candidates(start_, trial, separation_)) {
+    const auto regions = b == container_index ? collect_wall(a, trial[a]) : collect_pair(a, b, trial);
     contacts.insert(contacts.end(), regions.begin(), regions.end());
   }
   return contacts;

@@ -10,6 +10,10 @@
 // contributes where the second form is negative, that is, unless it leaves through the plane at Q.
 // V sums the contributions of a contact region, of both bodies' vertices. Only relative displacements enter,
 // which makes V independent of a common translation and the two forces of a contact opposite.
+//
+// The container is a circle, not a polygon, moved inward by half the minimum separation. A vertex that leaves it
+// through Q contributes as above, n pointing inward at Q. One that is outside all the time contributes
+// ds_P <n, (P - Q)(end)> with the Q nearest to its end. So V < 0 exactly if a vertex ends outside.
 #pragma once
 
 #include <vector>
@@ -28,13 +32,14 @@ enum class StivGradient {
 };
 
 struct StivOptions {
-  int vertices;  // of each polygon; at least 8
+  int vertices;  // of each polygon; at least 8. A fixed body gets the smallest multiple of it that makes its
+                 // vertices no sparser, by perimeter, than the densest of the mobile bodies'
   StivGradient gradient = StivGradient::full;
 };
 
-// Finds the contact regions of one step from the poses at its start, with
+// Finds the contact regions of one step from the poses at its start, those of two fixed bodies excepted, with
 //   value     = V, an area: negative, and exactly 0 (no constraint) where the polygons do not meet;
-//   tolerance = 1e-12 r_a r_b, with the circumradii r of the two bodies;
+//   tolerance = 1e-12 r_a r_b, with the circumradii r of the two bodies, or the container's radius;
 //   gradient  = dV by StivOptions::gradient, (vertex - centre) at the end of the step being the arm of angles;
 //   force     = gradient. The forces on the two bodies are opposite to the last bit. Their torques balance up
 //               to (P - Q)(end) x force, exactly once V = 0 with the contact at the end of the step.
@@ -77,6 +82,7 @@ class StivCollector {
   };
 
   std::vector<ContactConstraint> collect_pair(int a, int b, const std::vector<Pose>& trial) const;
+  std::vector<ContactConstraint> collect_wall(int a, const Pose& trial) const;
 
   const Suspension& start_;
   double separation_;

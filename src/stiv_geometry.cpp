@@ -166,4 +166,21 @@ std::vector<VertexHit> vertex_hits(const MovingPolygon& moving, const MovingPoly
   return hits;
 }
 
+std::vector<WallHit> wall_hits(const MovingPolygon& moving, double radius) {
+  std::vector<WallHit> hits;
+  for (std::size_t k = 0; k < moving.start.size(); ++k) {
+    const Complex from = moving.start[k], to = moving.end[k], way = to - from;
+    if (!(std::abs(to) > radius)) continue;
+    // Seen from the end: |to - s way| = radius at s = 1 - tau, the smaller root of a s^2 - 2 b s + c, c > 0.
+    const double a = dot(way, way), b = dot(way, to);
+    const double c = (std::abs(to) - radius) * (std::abs(to) + radius), discriminant = b * b - a * c;
+    const double rest = b > 0.0 && discriminant >= 0.0 ? c / (b + std::sqrt(discriminant)) : infinity;
+    const Complex there = rest <= 1.0 ? to - rest * way : to;
+    const Complex normal = -there / std::abs(there), point = -radius * normal;
+    const double interval = dot(normal, to - point);
+    if (interval < 0.0) hits.push_back({static_cast<int>(k), rest <= 1.0 ? 1.0 - rest : 0.0, normal, point, interval});
+  }
+  return hits;
+}
+
 }  // namespace stokes

@@ -44,4 +44,18 @@ struct VertexHit {
 // numbers of vertices, 3 ns each.
 std::vector<VertexHit> vertex_hits(const MovingPolygon& moving, const MovingPolygon& target);
 
+// Where a vertex leaves the circle |x| = radius, which is at rest and fluid inside.
+struct WallHit {
+  int vertex;
+  double tau;
+  Complex normal;   // unit, from the wall into the fluid
+  Complex point;    // Q = -radius normal, on the circle
+  double interval;  // <normal, P - Q> at the end of the step, negative
+};
+
+// The vertices of `moving` that end outside the circle, in increasing order. A vertex P leaves it where
+// |P(tau)|^2 - radius^2, a quadratic, rises through zero. One that is outside at tau = 0 and stays there has
+// tau = 0 and the point nearest to its end.
+std::vector<WallHit> wall_hits(const MovingPolygon& moving, double radius);
+
 }  // namespace stokes

@@ -78,18 +78,15 @@ std::vector<PointFlow> StokesSystem::flow(const std::vector<Complex>& points, co
   return result;
 }
 
-Wrench StokesSystem::container_wrench(const ComplexVector& density, const BackgroundFlow& background,
-                                      const std::vector<Wrench>& wrenches) const {
-  if (!has_container()) return {};
-  const PlacedShape& wall = boundaries_.back();
-  std::vector<Complex> points;
-  for (int k = 0; k < wall.size(); ++k) points.push_back(nodes_[wall.offset + k]);
-  const std::vector<PointFlow> flows = flow(points, density, background, wrenches);
+Wrench StokesSystem::container_wrench(const ComplexVector& density, const std::vector<Wrench>& wrenches) const {
   Wrench total;
-  for (int k = 0; k < wall.size(); ++k) {
-    const Complex force = traction(stress(flows[k]), weighted_normal_[wall.offset + k]);
-    total.force += force;
-    total.torque += cross(points[k] - wall.pose.centre, force);
+  if (!has_container()) return total;
+  const std::vector<Wrench> reaction = reactions(density);
+  for (int j = 0; j < body_count(); ++j) {
+    const bool fixed = boundaries_[j].shape->kind == BoundaryKind::fixed;
+    const Wrench w = fixed ? reaction[j] : wrenches.empty() ? Wrench{} : wrenches[j];
+    total.force -= w.force;
+    total.torque -= w.torque + cross(boundaries_[j].pose.centre - boundaries_.back().pose.centre, w.force);
   }
   return total;
 }

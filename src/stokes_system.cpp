@@ -85,13 +85,15 @@ void StokesSystem::place(const Suspension& bodies, const std::vector<Discretisat
     }
 }
 
+double StokesSystem::near_reach(int boundary) const {
+  return near_distance(*boundaries_[boundary].shape, 0.1 * options_.gmres_tolerance);
+}
+
 void StokesSystem::find_near_blocks() {
   std::vector<Complex> centres;
   std::vector<double> radii;
   double reach = 0.0;
-  const auto limit = [this](int i, int j) {
-    return std::max(near_distance(*boundaries_[i].shape), near_distance(*boundaries_[j].shape));
-  };
+  const auto limit = [this](int i, int j) { return std::max(near_reach(i), near_reach(j)); };
   const auto add = [this](int i, int j) {
     near_.push_back({i, j, {}, {}});
     near_.push_back({j, i, {}, {}});
@@ -100,7 +102,7 @@ void StokesSystem::find_near_blocks() {
     const PlacedShape& b = boundaries_[i];
     centres.push_back(b.pose.centre);
     radii.push_back(b.shape->shape.circumradius());
-    reach = std::max(reach, near_distance(*b.shape));
+    reach = std::max(reach, near_reach(i));
     const int wall = body_count();
     if (has_container() && boundaries_[wall].shape->shape.circumradius() - radii[i] -
                                    std::abs(centres[i] - boundaries_[wall].pose.centre) < limit(i, wall))
@@ -116,7 +118,7 @@ void StokesSystem::find_near_blocks() {
     const PlacedShape &target = boundaries_[near.target], &source = boundaries_[near.source];
     std::vector<Complex> z(target.size());
     for (int k = 0; k < target.size(); ++k) z[k] = source.local(nodes_[target.offset + k]);
-    near.rows = near_rows(*source.shape, z);
+    near.rows = near_rows(*source.shape, z, near_reach(near.source));
     if (near.rows.empty()) return;
     std::vector<Complex> close;
     for (int row : near.rows) close.push_back(z[row]);

@@ -91,9 +91,9 @@ class StokesSystem {
   std::vector<PointFlow> flow(const std::vector<Complex>& points, const ComplexVector& density,
                               const BackgroundFlow& background, const std::vector<Wrench>& wrenches) const;
 
-  // Force and torque (about its centre) of the container on the fluid, by the traction on it; zero without one.
-  Wrench container_wrench(const ComplexVector& density, const BackgroundFlow& background,
-                          const std::vector<Wrench>& wrenches) const;
+  // Force and torque (about its centre) of the container on the fluid: what balances all others, since a double layer
+  // exerts none. Zero without a container.
+  Wrench container_wrench(const ComplexVector& density, const std::vector<Wrench>& wrenches) const;
 
   // Forces and torques of the fixed bodies on the fluid that a density stands for; zero for free bodies.
   std::vector<Wrench> reactions(const ComplexVector& density) const;
@@ -115,6 +115,7 @@ class StokesSystem {
 
   void place(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes);
   bool has_container() const;
+  double near_reach(int boundary) const;
   void find_near_blocks();
   void find_completion_columns();
   std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;

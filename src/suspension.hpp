@@ -1,7 +1,9 @@
 // Bodies and where they are.
 #pragma once
 
+#include <limits>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "shape.hpp"
@@ -48,6 +50,15 @@ struct Container {
   int points = 0;  // on its boundary
   SurfaceMotion surface{};
 };
+
+// The container in the place of a body's index: the second of a pair, after every body. It is an entry of no array.
+inline constexpr int container_index = std::numeric_limits<int>::max();
+
+// "bodies 3 and 5" or "body 3 and the container".
+inline std::string pair_name(int a, int b) {
+  if (b == container_index) return "body " + std::to_string(a) + " and the container";
+  return "bodies " + std::to_string(a) + " and " + std::to_string(b);
+}
 
 // Translational and angular velocity of a body.
 struct RigidVelocity {

@@ -221,9 +221,9 @@ TEST_CASE("beyond its near distance the plain sum has velocity, or pressure and 
       };
       const auto velocity = [](const PointFlow& f) { return std::abs(f.velocity); };
       const auto rest = [](const PointFlow& f) { return std::max(std::abs(f.pressure), gradient_size(f)); };
-      CHECK(largest(near_distance(body), velocity) < 1e-10);
+      CHECK(largest(near_distance(body, 1e-10), velocity) < 1e-10);
       CHECK(largest(near_distance_of_gradient(body), rest) < 1e-10);
-      CHECK(largest(0.3 * near_distance(body), rest) > 1e-6);
+      CHECK(largest(0.3 * near_distance(body, 1e-10), rest) > 1e-6);
     }
 }
 

@@ -187,3 +187,22 @@ TEST_CASE("cluster: a suspension has the interference volumes of its pairs, sort
   CHECK((got == expected));
   CHECK((again == expected));
 }
+
+TEST_CASE("cluster: an obstacle bears what a cluster does not balance, and other clusters balance as ever") {
+  // 0 - 1 - 2 with 1 fixed, 3 - 4 with 4 at the container, 5 - 6 free; 7 is fixed and alone.
+  std::mt19937_64 generator(5);
+  const std::vector<Wrench> before = random_wrenches(generator, 8);
+  std::vector<Wrench> after = before;
+  balance_clusters({{0, 1}, {1, 2}, {3, 4}, {4, container_index}, {5, 6}}, after, {1, 7});
+  for (int i : {0, 1, 2, 3, 4, 7}) CHECK(same(after[i], before[i]));
+  CHECK(after[5].force == -after[6].force);
+  CHECK_FALSE((same(after[5], before[5]) && same(after[6], before[6])));
+
+  // Without the obstacles they would not be spared.
+  after = before;
+  balance_clusters({{0, 1}, {1, 2}, {3, 4}}, after);
+  CHECK_FALSE(same(after[1], before[1]));
+  CHECK_FALSE((same(after[3], before[3]) && same(after[4], before[4])));
+  CHECK_THROWS_AS(balance_clusters({}, after, {8}), InputError);
+  CHECK_THROWS_AS(balance_clusters({{container_index, 0}}, after), InputError);
+}

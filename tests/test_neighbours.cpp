@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "container_gap.hpp"
 #include "gap.hpp"
 #include "neighbours.hpp"
 
@@ -196,4 +197,76 @@ TEST_CASE("of equal smallest gaps the pair of lowest indices is reported, and no
   CHECK(none.a == -1);
   CHECK(none.b == -1);
   CHECK(std::isinf(none.gap));
+}
+
+TEST_CASE("the smallest gap is that of brute force with fixed bodies, large ones and a container among them") {
+  Random random{std::mt19937_64(5)};
+  int walls = 0, obstacles = 0, none = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    Suspension suspension;
+    const int count = static_cast<int>(random.uniform(0.0, 20.0));
+    for (int i = 0; i < count; ++i) {
+      const double a = random.uniform(0.1, 1.0), b = random.uniform(0.1, 1.0);
+      suspension.push_back({{a, b}, {random.point(10.0), random.uniform(0.0, 6.0)}});
+      if (random.uniform(0.0, 1.0) < 0.4) suspension.back().fixed = true;
+      if (suspension.back().fixed && i == 0) suspension.back().shape = {5.0, 5.0};
+    }
+    if (trial % 3) suspension.container = Container{random.point(1.0), random.uniform(8.0, 100.0)};
+    ClosestPair expected;
+    for (int i = 0; i < count; ++i) {
+      for (int j = i + 1; j < count; ++j) {
+        if (suspension[i].fixed && suspension[j].fixed) continue;
+        const double value = gap(suspension[i], suspension[j]).value;
+        if (value < expected.gap) expected = {i, j, value};
+      }
+      if (suspension[i].fixed || !suspension.container) continue;
+      const double value = gap(suspension[i], *suspension.container).value;
+      if (value < expected.gap) expected = {i, container_index, value};
+    }
+    const ClosestPair found = smallest_gap(suspension);
+    CHECK(found.gap == expected.gap);
+    CHECK(found.a == expected.a);
+    CHECK(found.b == expected.b);
+    none += found.a < 0;
+    walls += found.b == container_index;
+    obstacles += found.a >= 0 && (suspension[found.a].fixed || (!suspension.container && suspension[found.b].fixed));
+  }
+  CHECK(walls > 20);
+  CHECK(obstacles > 20);
+  CHECK(none > 5);
+}
+
+TEST_CASE("candidates for contact are pairs whose circles come close, not of two obstacles, and those at the wall") {
+  Random random{std::mt19937_64(6)};
+  int at_wall = 0;
+  for (int trial = 0; trial < 100; ++trial) {
+    Suspension start;
+    std::vector<Pose> end;
+    Circles circles;
+    for (int i = 0; i < 15; ++i) {
+      start.push_back({{random.uniform(0.1, 1.0), random.uniform(0.1, 1.0)}, {random.point(4.0), 1.0}});
+      start.back().fixed = i % 3 == 0;
+      end.push_back(start.back().pose);
+      if (i % 3) end.back().centre += random.point(1.0);
+      circles.start.push_back(start.back().pose.centre), circles.end.push_back(end.back().centre);
+      circles.radius.push_back(start.back().shape.circumradius());
+    }
+    start.container = Container{{0.5, 0.0}, 5.0};
+    std::vector<std::pair<int, int>> expected;
+    for (const auto& [i, j] : neighbour_pairs(circles.start, circles.end, circles.radius, 0.2))
+      if (i % 3 || j % 3) expected.emplace_back(i, j);
+    for (int i = 0; i < 15; ++i) {
+      if (i % 3 == 0 || std::abs(end[i].centre - 0.5) + circles.radius[i] < 4.8) continue;
+      expected.emplace_back(i, container_index);
+      ++at_wall;
+    }
+    std::sort(expected.begin(), expected.end());
+    CHECK((contact_candidates(start, end, 0.2) == expected));
+  }
+  CHECK(at_wall > 50);
+}
+
+TEST_CASE("pairs are named after their bodies, or the body and the container") {
+  CHECK(pair_name(3, 5) == "bodies 3 and 5");
+  CHECK(pair_name(3, container_index) == "body 3 and the container");
 }
