@@ -110,6 +110,7 @@ Stepper::Configuration& Stepper::configuration(double driving) {
     throw;
   }
   now_->gmres_iterations = spent + solution.iterations;
+  now_->background_iterations = solution.iterations;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
 }
@@ -198,6 +199,7 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   outcome.failure = result.failure;
   outcome.dt = dt;
   outcome.gmres_iterations = now.gmres_iterations;
+  outcome.background_iterations = now.background_iterations;
   outcome.ncp_iterations = now.ncp_iterations;
   if (result.solved) accept(now, dt, result, outcome);
   return outcome;

@@ -54,6 +54,7 @@ struct StepOutcome {
   std::string failure;  // empty when accepted
   double dt = 0.0;
   int gmres_iterations = 0, ncp_iterations = 0;
+  int background_iterations = 0;  // of GMRES, those of the latest contact-free solve
   std::vector<ActiveContact> contacts;
   std::vector<RigidVelocity> velocity;
   std::vector<Wrench> contact_wrench;  // on every body
@@ -112,7 +113,7 @@ class Stepper {
     StokesSystem system;
     Response contact_free;
     ComplexVector latest_contact;  // density of the last answer to contact forces
-    int gmres_iterations = 0, ncp_iterations = 0;
+    int gmres_iterations = 0, background_iterations = 0, ncp_iterations = 0;
     std::vector<std::pair<std::vector<Wrench>, Response>> answers;  // to forces and torques
   };
   Configuration& configuration(double driving);
