@@ -105,6 +105,16 @@ ADAPTIVE_CASES     = $(foreach r,$(ADAPTIVE_RUNS),$(r) $(r)_stiv $(r)_self)
 VARIANT_CASES      = $(foreach c,global local,$(foreach m,full self,gap_$(c)_$(m) \
                        $(foreach v,32 128,$(foreach g,whole frozen,stiv$(v)_$(g)_$(c)_$(m)))))
 
+# Longest first, so that two processes end together.
+FIG4_STEPS         = 0.00625 0.0125 0.025
+FIG4_CASES         = $(foreach t,$(FIG4_STEPS),dt$(t) dt$(t)_stiv dt$(t)_plain) points64 tolerance1e-8 adaptive_dt0.1 quick
+TG_CONTINUED       = global_full_dt0.01 global_self_dt0.01 local_start_dt0.025 local_start_dt0.0025 \
+                       $(foreach t,1e-2 1e-4 1e-6 1e-8,local_contact_dt$(t))
+TG_FREE            = $(foreach p,32 64,$(foreach t,0.0025 0.01 0.025,free_points$(p)_dt$(t))) \
+                       $(foreach t,0.0025 0.01 0.025,free_points32_dt$(t)_near)
+TG_ITERATIONS      = $(foreach k,none block pair,cold_$(k) $(foreach t,1e-6 1e-8,extrapolated_$(k)_$(t))) points
+TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
+
 # $(call experiment,name,cases,quick cases): `name` makes all its cases and then its tables.
 define experiment
 .PHONY: $(1) $(1)-quick
@@ -125,6 +135,8 @@ $(eval $(call experiment,local_coupling,$(LOCAL_CASES),$(LOCAL_CASES)))
 $(eval $(call experiment,contact_variants,$(VARIANT_CASES),$(VARIANT_CASES)))
 $(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES)))
 $(eval $(call experiment,close_evaluation,$(CLOSE_CASES),$(CLOSE_CASES)))
+$(eval $(call experiment,fig4_taylor_green,$(FIG4_CASES),quick))
+$(eval $(call experiment,taylor_green_claims,$(TG_CASES),points))
 $(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
 
 reproduce: $(BUILD)/verify

@@ -122,7 +122,9 @@ void check_net_force(const Table& table, const Suspension& bodies) {
 }
 
 void check_overlaps(const Table& table, const Suspension& bodies) {
-  const ClosestPair closest = smallest_gap(bodies);
+  Suspension all = bodies;  // two fixed ones count as well
+  for (Body& body : all) body.fixed = false;
+  const ClosestPair closest = smallest_gap(all);
   if (closest.gap > 0.0) return;
   refuse(table.where(closest.b), "bodies ", closest.a, " and ", closest.b, " (counted from 0) ",
          closest.gap < 0.0 ? concat("overlap by ", -closest.gap) : std::string("touch"),

@@ -183,7 +183,7 @@ const std::vector<CaseKey>& case_keys() {
       optional("summation", &Case::summation, "of the flows of all nodes; auto: direct for few of them"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
-      optional("fields_at", &Case::fields_at, "increasing times at which the flow is written out"),
+      optional("fields_at", &Case::fields_at, "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
       optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid"),
       optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
       optional("threads", &Case::threads, "all", "at most 1024"),

@@ -12,8 +12,12 @@ constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.c
 
 const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x",  "y",  "theta",
                                                      "ux",   "uy",   "omega", "fx", "fy", "torque"};
-const std::vector<std::string> steps_columns = {"step",           "time",     "dt",      "gmres_iterations",
-                                                "ncp_iterations", "contacts", "min_gap", "density_tail"};
+std::vector<std::string> steps_columns(StepsColumns columns) {
+  std::vector<std::string> names = {"step",           "time",     "dt",      "gmres_iterations",
+                                    "ncp_iterations", "contacts", "min_gap", "density_tail"};
+  if (columns == StepsColumns::between_walls) names.insert(names.end(), {"inner_torque", "outer_torque"});
+  return names;
+}
 
 const std::filesystem::path& made(const std::filesystem::path& folder) {
   std::string why = why_not_writable(folder);
@@ -66,16 +70,19 @@ std::string why_not_writable(const std::filesystem::path& folder) {
   return {};
 }
 
-Recorder::Recorder(const std::filesystem::path& folder, int output_every)
+Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns)
     : output_every_(output_every),
+      columns_(columns),
       trajectory_(made(folder) / trajectory_name, trajectory_columns),
-      steps_(folder / steps_name, steps_columns) {}
+      steps_(folder / steps_name, steps_columns(columns)) {}
 
-Recorder::Recorder(const std::filesystem::path& folder, int output_every, const Position& position)
+Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns,
+                   const Position& position)
     : output_every_(output_every),
+      columns_(columns),
       trajectory_(CsvWriter::continued(long_enough(folder, position) / trajectory_name, trajectory_columns.size(),
                                        position.trajectory_bytes)),
-      steps_(CsvWriter::continued(folder / steps_name, steps_columns.size(), position.steps_bytes)),
+      steps_(CsvWriter::continued(folder / steps_name, steps_columns(columns).size(), position.steps_bytes)),
       skipped_(position.skipped) {}
 
 void Recorder::record(const StepRecord& record) {
@@ -95,12 +102,19 @@ void Recorder::record(const StepRecord& record) {
     }
     rows.push_back(std::move(row));
   }
-  if (outcome)
-    steps_.row(std::vector<double>{step, record.time, outcome->dt, static_cast<double>(outcome->gmres_iterations),
-                                   static_cast<double>(outcome->ncp_iterations), contact_count(*outcome), record.min_gap,
-                                   outcome->density_tail});
-  else
-    steps_.row(std::vector<double>{step, record.time, nan, nan, nan, nan, record.min_gap, nan});
+  Row summary = {step, record.time};
+  if (outcome) {
+    for (double value : {outcome->dt, static_cast<double>(outcome->gmres_iterations),
+                         static_cast<double>(outcome->ncp_iterations), contact_count(*outcome), record.min_gap,
+                         outcome->density_tail})
+      summary.push_back(value);
+    if (columns_ == StepsColumns::between_walls)
+      for (double value : {outcome->reaction.back().torque, outcome->container.torque}) summary.push_back(value);
+  } else {
+    summary.resize(steps_columns(columns_).size(), nan);
+    summary[6] = record.min_gap;
+  }
+  steps_.row(summary);
 
   if (outcome && record.step % output_every_ != 0) {
     skipped_ = std::move(rows);

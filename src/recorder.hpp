@@ -20,7 +20,10 @@ std::string why_not_writable(const std::filesystem::path& folder);
 //   it; every `output_every`-th step, the first and the last; the final configuration is one more step
 //   whose other fields are nan.
 // steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail
-//   A row for every step and one for the final configuration.
+//   A row for every step and one for the final configuration. Between walls two more columns, inner_torque and
+//   outer_torque: of the inner wall (the last body) and of the container on the fluid, about their centres.
+enum class StepsColumns { unbounded, between_walls };
+
 class Recorder {
  public:
   using Row = std::vector<double>;
@@ -32,10 +35,10 @@ class Recorder {
   };
 
   // Creates the folder where it is missing. InputError when it cannot be written.
-  Recorder(const std::filesystem::path& folder, int output_every);
+  Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns = StepsColumns::unbounded);
   // Goes on with the files of a run that was at `position`; what they hold beyond is cut off. InputError, and
   // nothing is changed, where they hold less.
-  Recorder(const std::filesystem::path& folder, int output_every, const Position& position);
+  Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Position& position);
 
   Position position() const { return {trajectory_.bytes(), steps_.bytes(), skipped_}; }
 
@@ -47,6 +50,7 @@ class Recorder {
 
  private:
   int output_every_;
+  StepsColumns columns_;
   CsvWriter trajectory_, steps_;
   std::vector<Row> skipped_;  // rows of the latest step that was left out; written if it is the last
 };

@@ -12,7 +12,7 @@ namespace {
 
 // The spacing wanted, in units of w; a cluster is worth its nodes from this excess on, and up to this density
 // (gaps of a thousandth of a semi-axis).
-constexpr double wanted_spacing = 0.6, least_density = 2.0, largest_density = 60.0;
+constexpr double wanted_spacing = 0.6, least_density = 1.5, largest_density = 60.0;
 
 // Adds a cluster where `body` faces a neighbour in direction n (laboratory frame), if its nodes are too sparse.
 void add_cluster(const Body& body, Complex n, double width, double fineness, Discretisation& nodes) {

@@ -5,7 +5,7 @@
 // and two contacts as far apart as the bodies of a suspension are long are equally sharp. Instead of more nodes
 // everywhere, a cluster of as many nodes as the body has is put where it is close: its spacing there is a fixed
 // part of w. With 32 nodes, a cluster each on two ellipses 4.75:1, tip on flank, gives the normal mobility at
-// gaps down to a thirtieth of the short semi-axis to better than 3 %; 128 equally spaced nodes miss it by half.
+// gaps down to a thirtieth of the short semi-axis to better than 1 %; 128 equally spaced nodes miss it by half.
 #pragma once
 
 #include <vector>

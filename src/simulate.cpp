@@ -14,6 +14,7 @@
 
 #include "case.hpp"
 #include "checkpoint.hpp"
+#include "fields.hpp"
 #include "neighbours.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
@@ -50,7 +51,7 @@ SimulationOptions options_of(const Case& c, double separation) {
 void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separation, Progress& progress) {
   const ClosestPair closest = smallest_gap(bodies);
   if (c.contact != ContactModel::none && closest.gap < separation)
-    progress.message(concat("warning: bodies ", closest.a, " and ", closest.b, " start ", closest.gap,
+    progress.message(concat("warning: ", pair_name(closest.a, closest.b), " start ", closest.gap,
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
 }
 
@@ -78,6 +79,35 @@ void catch_signals() {
     sigaction(signal, &action, nullptr);
   }
 }
+
+// Writes the flow of the first state at or after each of the times asked for. A run that goes on keeps the files of
+// earlier states.
+class FieldTimes {
+ public:
+  FieldTimes(const Case& c, const StepperOptions& options, bool goes_on) : case_(c), options_(options) {
+    for (const double time : c.fields_at)
+      if (!goes_on) std::filesystem::remove(path(time));
+  }
+
+  void write(const StepRecord& record) {
+    const double slack = 1e-9 * case_.time_step;
+    for (; next_ < case_.fields_at.size() && record.time >= case_.fields_at[next_] - slack; ++next_) {
+      if (std::filesystem::exists(path(case_.fields_at[next_]))) continue;
+      const bool back = case_.reverse_at && record.time >= *case_.reverse_at - slack;
+      write_fields(path(case_.fields_at[next_]), record.bodies, options_, back ? -1.0 : 1.0,
+                   record.outcome ? record.outcome->contact_wrench : std::vector<Wrench>{}, case_.field_points);
+    }
+  }
+
+ private:
+  std::filesystem::path path(double time) const {
+    return std::filesystem::path(case_.output) / concat("fields_", time, ".csv");
+  }
+
+  const Case& case_;
+  const StepperOptions& options_;
+  std::size_t next_ = 0;
+};
 
 struct Interruption {
   int signal;
@@ -121,7 +151,9 @@ int run(const std::vector<std::string>& arguments) {
   const std::optional<Checkpoint> start = file.read();
   Progress progress(c.end_time, start ? start->run.clock.time : 0.0);
   if (!start) file.remove();  // of another run that failed, before its results
-  Recorder recorder = start ? Recorder(c.output, c.output_every, start->recorder) : Recorder(c.output, c.output_every);
+  const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
+  Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
+                            : Recorder(c.output, c.output_every, columns);
   if (start)
     progress.message(concat("going on from step ", start->run.clock.step, ", time ", start->run.clock.time));
   else
@@ -133,8 +165,10 @@ int run(const std::vector<std::string>& arguments) {
   options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };
   catch_signals();
   bool warned = false;
+  FieldTimes fields(c, options.stepper, start.has_value());
   const RunSummary summary = simulate(bodies, options, [&](const StepRecord& record) {
     recorder.record(record);
+    fields.write(record);
     progress.show(record);
     if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
       warned = true;

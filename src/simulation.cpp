@@ -105,7 +105,7 @@ std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair
     return error.what();
   }
   if (!(closest.gap < 0.0)) return {};
-  return concat("bodies ", closest.a, " and ", closest.b, " overlap by ", -closest.gap, "; try a smaller time_step",
+  return concat(pair_name(closest.a, closest.b), " overlap by ", -closest.gap, "; try a smaller time_step",
                 contact == ContactModel::none ? ", or contact = gap" : "");
 }
 

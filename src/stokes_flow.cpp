@@ -9,7 +9,7 @@
 
 namespace stokes {
 
-// The trapezoid sum of all nodes but those at the points themselves.
+// The trapezoid sum of all nodes.
 std::vector<PointFlow> StokesSystem::summed_flow(const PointArray& points, const ComplexVector& lab_density) const {
   FlowFields fields;
   SourceStrengths strengths;
@@ -40,15 +40,50 @@ std::vector<int> StokesSystem::near_points(const PlacedShape& b, const std::vect
   return near;
 }
 
+// Near a boundary the trapezoid sum of its nodes is left out, not taken back: next to a node it is all round-off.
+std::vector<PointFlow> StokesSystem::double_layer_flow(const std::vector<Complex>& points,
+                                                       const ComplexVector& density) const {
+  const ComplexVector lab = in_laboratory(density.data());
+  const long boundary_count = static_cast<long>(boundaries_.size());
+  std::vector<std::vector<int>> near(boundary_count);
+  std::vector<std::vector<PointFlow>> close(boundary_count);
+  parallel_for(boundary_count, [&](long j) {
+    const PlacedShape& b = boundaries_[j];
+    near[j] = near_points(b, points);
+    std::vector<Complex> z;
+    for (int i : near[j]) z.push_back(b.local(points[i]));
+    if (!z.empty()) close[j] = b.shape->close_flow(density.segment(b.offset, b.size()), z);
+  });
+  std::vector<std::vector<int>> beside(points.size());  // boundaries that a point is near
+  for (int j = 0; j < boundary_count; ++j)
+    for (int i : near[j]) beside[i].push_back(j);
+
+  PointArray far;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (beside[i].empty()) far.x.push_back(points[i].real()), far.y.push_back(points[i].imag());
+  const std::vector<PointFlow> summed = summed_flow(far, lab);
+  std::vector<PointFlow> result(points.size());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (beside[i].empty()) result[i] = summed[next++];
+  parallel_for(static_cast<long>(points.size()), [&](long i) {
+    if (beside[i].empty()) return;
+    for (int j = 0; j < boundary_count; ++j) {
+      if (std::binary_search(beside[i].begin(), beside[i].end(), j)) continue;
+      for (int k = boundaries_[j].offset; k < boundaries_[j].offset + boundaries_[j].size(); ++k)
+        result[i] += stresslet_flow(points[i] - nodes_[k], weighted_normal_[k], lab[k]);
+    }
+  });
+  for (int j = 0; j < boundary_count; ++j)
+    for (std::size_t r = 0; r < near[j].size(); ++r) result[near[j][r]] += turned(close[j][r], boundaries_[j].axis);
+  return result;
+}
+
 std::vector<PointFlow> StokesSystem::flow(const std::vector<Complex>& points, const ComplexVector& density,
                                           const BackgroundFlow& background, const std::vector<Wrench>& wrenches) const {
-  PointArray targets;
-  targets.resize(static_cast<int>(points.size()));
-  for (int i = 0; i < targets.size(); ++i) targets.set(i, points[i]);
-  const ComplexVector lab = in_laboratory(density.data());
-  std::vector<PointFlow> result = summed_flow(targets, lab);
+  std::vector<PointFlow> result = double_layer_flow(points, density);
   const std::vector<Wrench> reaction = reactions(density);
-  parallel_for_large(targets.size(), 100 * targets.size(), [&](long i) {
+  parallel_for(static_cast<long>(points.size()), [&](long i) {
     result[i] += background.flow(points[i]);
     for (int j = 0; j < body_count(); ++j) {
       const bool fixed = boundaries_[j].shape->kind == BoundaryKind::fixed;
@@ -57,24 +92,6 @@ std::vector<PointFlow> StokesSystem::flow(const std::vector<Complex>& points, co
         result[i] += completion_flow(boundaries_[j].shape->shape, boundaries_[j].pose, w, points[i], log_length_);
     }
   });
-  std::vector<std::vector<int>> near(boundaries_.size());
-  std::vector<std::vector<PointFlow>> change(boundaries_.size());
-  parallel_for(static_cast<long>(boundaries_.size()), [&](long j) {
-    const PlacedShape& b = boundaries_[j];
-    near[j] = near_points(b, points);
-    if (near[j].empty()) return;
-    std::vector<Complex> z;
-    for (int i : near[j]) z.push_back(b.local(points[i]));
-    change[j] = b.shape->close_flow(density.segment(b.offset, b.size()), z);
-    for (std::size_t r = 0; r < near[j].size(); ++r) {
-      change[j][r] = turned(change[j][r], b.axis);
-      for (int k = b.offset; k < b.offset + b.size(); ++k)
-        if (const Complex d = points[near[j][r]] - nodes_[k]; d != Complex(0.0))
-          change[j][r] -= stresslet_flow(d, weighted_normal_[k], lab[k]);
-    }
-  });
-  for (std::size_t j = 0; j < boundaries_.size(); ++j)
-    for (std::size_t r = 0; r < near[j].size(); ++r) result[near[j][r]] += change[j][r];
   return result;
 }
 

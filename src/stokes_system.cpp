@@ -15,7 +15,7 @@ namespace stokes {
 namespace {
 
 // Pairs closer than this part of the smaller circumradius are solved together by the preconditioner.
-constexpr double close_pair = 0.2;
+constexpr double close_pair = 0.35;
 
 Wrench wrench_of(const std::vector<Wrench>& wrenches, int body) {
   return wrenches.empty() ? Wrench{} : wrenches[body];

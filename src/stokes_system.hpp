@@ -121,6 +121,7 @@ class StokesSystem {
   std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;
   Matrix interaction(int target, int source) const;
   ComplexVector in_laboratory(const Complex* density) const;
+  std::vector<PointFlow> double_layer_flow(const std::vector<Complex>& points, const ComplexVector& density) const;
   std::vector<PointFlow> summed_flow(const PointArray& points, const ComplexVector& lab_density) const;
   std::vector<int> near_points(const PlacedShape& boundary, const std::vector<Complex>& points) const;
   ComplexVector double_layer(const Complex* density) const;

@@ -1,0 +1,87 @@
+#include "fields.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "csv.hpp"
+
+namespace stokes {
+
+namespace {
+
+struct Square {
+  Complex corner;  // lower left
+  double side;
+};
+
+Square square_around(const Suspension& bodies) {
+  if (bodies.container) {
+    const double r = bodies.container->radius;
+    return {bodies.container->centre - Complex(r, r), 2.0 * r};
+  }
+  Complex low = bodies[0].pose.centre, high = low;
+  double radius = 0.0;
+  for (const Body& body : bodies) {
+    const Complex c = body.pose.centre;
+    low = {std::min(low.real(), c.real()), std::min(low.imag(), c.imag())};
+    high = {std::max(high.real(), c.real()), std::max(high.imag(), c.imag())};
+    radius = std::max(radius, body.shape.circumradius());
+  }
+  const double side = std::max((high - low).real(), (high - low).imag()) + 6.0 * radius;
+  return {0.5 * (low + high) - 0.5 * Complex(side, side), side};
+}
+
+bool in_fluid(const Suspension& bodies, Complex x) {
+  if (bodies.container && std::abs(x - bodies.container->centre) > bodies.container->radius) return false;
+  return std::none_of(bodies.begin(), bodies.end(), [x](const Body& body) {
+    const Complex z = std::conj(body.pose.axis()) * (x - body.pose.centre);
+    return std::hypot(z.real() / body.shape.a, z.imag() / body.shape.b) < 1.0;
+  });
+}
+
+}  // namespace
+
+void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
+                  double driving, const std::vector<Wrench>& contact, int points) {
+  std::vector<Wrench> wrenches;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Wrench more = contact.empty() ? Wrench{} : contact[i];
+    wrenches.push_back({bodies[i].force + more.force, bodies[i].torque + more.torque});
+  }
+  ShapeCache shapes(options.near_singular);
+  const std::vector<Discretisation> nodes = options.refine == Refine::near
+                                                ? refined_nodes(bodies, options.points_per_body, 1.0)
+                                                : equal_nodes(bodies, options.points_per_body);
+  const StokesSystem system(bodies, nodes, shapes, options.stokes);
+  const BackgroundFlow flow{options.flow.kind, driving * options.flow.rate, driving};
+  const StokesSolution solution = system.solve(flow, wrenches);
+
+  const Square square = square_around(bodies);
+  std::vector<Complex> grid, fluid;
+  for (int j = 0; j < points; ++j)
+    for (int i = 0; i < points; ++i) {
+      grid.push_back(square.corner + square.side / (points - 1) * Complex(i, j));
+      if (in_fluid(bodies, grid.back())) fluid.push_back(grid.back());
+    }
+  const std::vector<PointFlow> flows = system.flow(fluid, solution.density, flow, wrenches);
+  std::string text = "x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside\n";
+  std::size_t next = 0;
+  for (const Complex x : grid) {
+    const bool outside = next < fluid.size() && fluid[next] == x;
+    std::vector<double> row{x.real(), x.imag()};
+    if (outside) {
+      const PointFlow& f = flows[next++];
+      const Stress s = stress(f);
+      for (double value : {f.velocity.real(), f.velocity.imag(), f.pressure, s.xx, s.xy, s.yy, 0.0}) row.push_back(value);
+    } else {
+      row.resize(8, std::nan(""));
+      row.push_back(1.0);
+    }
+    std::vector<std::string> fields;
+    for (double value : row) fields.push_back(format_number(value));
+    text += join(fields, ",") + "\n";
+  }
+  write_file_atomically(path, text);
+}
+
+}  // namespace stokes

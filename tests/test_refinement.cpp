@@ -1,0 +1,137 @@
+// Nodes clustered near contacts, and what dense suspensions cost.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "curve.hpp"
+#include "gap.hpp"
+#include "refinement.hpp"
+#include "stokes_system.hpp"
+
+using namespace stokes;
+
+namespace {
+
+// An ellipse 4.75:1 along x and another, upright, `distance` above its flank at x.
+Suspension tip_on_flank(double x, double distance) {
+  Suspension pair{{{0.475, 0.1}, {}}, {{0.475, 0.1}, {{x, 0.0}, pi / 2}}};
+  double low = 0.3, high = 1.0;
+  for (int k = 0; k < 60; ++k) {
+    pair[1].pose.centre = {x, 0.5 * (low + high)};
+    (gap(pair[0], pair[1]).value < distance ? low : high) = 0.5 * (low + high);
+  }
+  return pair;
+}
+
+// Rate of the gap for a unit force that parts the pair.
+double normal_mobility(const Suspension& pair, const std::vector<Discretisation>& nodes) {
+  const GapGradient g = gradient(gap(pair[0], pair[1]), pair[0].pose, pair[1].pose);
+  ShapeCache shapes;
+  const StokesSystem system(pair, nodes, shapes, {1e-10});
+  const std::vector<RigidVelocity> u = system.solve({}, {{g.centre_a, g.angle_a}, {g.centre_b, g.angle_b}}).velocity;
+  return dot(g.centre_a, u[0].velocity) + g.angle_a * u[0].omega + dot(g.centre_b, u[1].velocity) + g.angle_b * u[1].omega;
+}
+
+// One disc and the six around it.
+Suspension hexagon(double distance) {
+  Suspension discs{{{1.0, 1.0}, {}}};
+  for (int k = 0; k < 6; ++k) discs.push_back({{1.0, 1.0}, {std::polar(2.0 + distance, k * pi / 3.0), 0.0}});
+  return discs;
+}
+
+}  // namespace
+
+TEST_CASE("clustered nodes lie on the ellipse, run around it once and stand as close as asked for") {
+  const Shape ellipse{0.475, 0.1};
+  for (const double density : {2.0, 5.0, 19.0}) {
+    const Discretisation nodes{32, {{1.6, density}}};
+    const Curve curve = ellipse.curve(nodes), through = Curve::through(curve.position);
+    REQUIRE(curve.size() == 64);
+    double smallest = 1.0;
+    for (int k = 0; k < 64; ++k) {
+      const Complex z = curve.position[k];
+      CHECK(std::abs(std::hypot(z.real() / 0.475, z.imag() / 0.1) - 1.0) < 1e-14);
+      smallest = std::min(smallest, curve.weight[k]);
+    }
+    CHECK(std::abs(curve.length() - ellipse.perimeter()) < 1e-5);
+    CHECK((curve.derivative - through.derivative).cwiseAbs().maxCoeff() < 1e-7);
+    // Around alpha = 1.6 the spacing is that of 32 equal steps divided by (1 + density).
+    const double equal = 0.475 * 2.0 * pi / 32.0;
+    CHECK(std::abs(std::abs(curve.derivative[static_cast<int>(Shape::position_of(1.6, nodes) / (2.0 * pi) * 64)]) *
+                       2.0 * pi / 64.0 / (equal / (1.0 + density)) - 1.0) < 0.2);
+  }
+}
+
+TEST_CASE("a density moved to clustered nodes and back keeps its values") {
+  const Discretisation plain{64, {}}, clustered{64, {{0.7, 3.0}, {4.0, 6.0}}};
+  ComplexVector density(64);
+  for (int k = 0; k < 64; ++k) density[k] = std::exp(Complex(0.0, 2.0 * pi * k / 64.0)) + std::cos(6.0 * pi * k / 64.0);
+  const ComplexVector moved = move_density(density, plain, clustered);
+  const std::vector<double> alpha = Shape::parameters(clustered);
+  double worst = 0.0;
+  for (int k = 0; k < clustered.size(); ++k)
+    worst = std::max(worst, std::abs(moved[k] - std::exp(Complex(0.0, alpha[k])) - std::cos(3.0 * alpha[k])));
+  CHECK(worst < 1e-13);
+  CHECK((move_density(moved, clustered, plain) - density).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("tip on flank, 32 nodes and clusters give the normal mobility of 512 nodes to 1 %, and 128 do not") {
+  double missed = 0.0;
+  for (const double x : {0.0, 0.15})
+    for (const double distance : {0.012, 0.006, 0.003}) {
+      const Suspension pair = tip_on_flank(x, distance);
+      const double reference = normal_mobility(pair, equal_nodes(pair, 512));
+      const std::vector<Discretisation> nodes = refined_nodes(pair, 32, 1.0);
+      CHECK(nodes[0].size() + nodes[1].size() <= 128);
+      CHECK(std::abs(normal_mobility(pair, nodes) / reference - 1.0) < 0.01);
+      missed = std::max(missed, std::abs(normal_mobility(pair, equal_nodes(pair, 128)) / reference - 1.0));
+    }
+  CHECK(missed > 0.4);
+}
+
+TEST_CASE("bodies far from others, and walls, keep their nodes") {
+  Suspension bodies = tip_on_flank(0.0, 0.5);
+  CHECK(refined_nodes(bodies, 32, 1.0) == equal_nodes(bodies, 32));
+  bodies = tip_on_flank(0.0, 0.005);
+  bodies[0].points = 48;
+  const std::vector<Discretisation> nodes = refined_nodes(bodies, 32, 1.0);
+  CHECK(nodes[0] == Discretisation{48, {}});
+  CHECK(nodes[1].size() == 64);
+}
+
+TEST_CASE("seven discs in a hexagon take at most 10, 15 and 25 iterations from zero, hardly depending on the nodes") {
+  struct Row {
+    double distance;
+    int points, limit;
+  };
+  for (const Row& row : {Row{0.3, 64, 10}, Row{0.1, 64, 15}, Row{0.01, 128, 25}}) {
+    const Suspension discs = hexagon(row.distance);
+    ShapeCache shapes;
+    StokesOptions options;
+    const int pair = StokesSystem(discs, row.points, shapes, options).solve({FlowKind::shear}, {}).iterations;
+    const int finer = StokesSystem(discs, 2 * row.points, shapes, options).solve({FlowKind::shear}, {}).iterations;
+    options.preconditioner = PreconditionerKind::block;
+    const int block = StokesSystem(discs, row.points, shapes, options).solve({FlowKind::shear}, {}).iterations;
+    MESSAGE("gap " << row.distance << ": " << pair << " iterations in pairs, " << finer << " with twice the nodes, "
+                   << block << " by blocks");
+    CHECK(pair <= row.limit);
+    CHECK(std::abs(finer - pair) <= 2);
+    CHECK(block > pair);
+  }
+}
+
+TEST_CASE("the fast multipole method and the direct sum give the same velocities to the tolerance") {
+  const Suspension discs = hexagon(0.1);
+  ShapeCache shapes;
+  for (const double tolerance : {1e-6, 1e-10}) {
+    StokesOptions options{tolerance};
+    options.summation = Summation::direct;
+    const auto direct = StokesSystem(discs, 64, shapes, options).solve({FlowKind::extension}, {}).velocity;
+    options.summation = Summation::fmm;
+    const auto fast = StokesSystem(discs, 64, shapes, options).solve({FlowKind::extension}, {}).velocity;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      CHECK(std::abs(direct[i].velocity - fast[i].velocity) < 10.0 * tolerance);
+      CHECK(std::abs(direct[i].omega - fast[i].omega) < 10.0 * tolerance);
+    }
+  }
+}
