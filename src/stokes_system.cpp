@@ -149,24 +149,27 @@ void StokesSystem::find_completion_columns() {
   });
 }
 
-// Pairs with near blocks whose gap is small; the gap to the container is that of the nearest node.
+// Pairs whose gap is small; the gap to the container is that of the nearest node.
 std::vector<std::pair<int, int>> StokesSystem::close_pairs(const Suspension& bodies) const {
-  const auto radius = [this](int i) { return boundaries_[i].shape->shape.circumradius(); };
-  std::vector<std::pair<int, int>> pairs;
-  for (const NearBlock& n : near_) {
-    const auto [i, j] = std::minmax(n.target, n.source);
-    double distance;
-    if (j < body_count()) {
-      distance = gap(bodies[i], bodies[j]).value;
-    } else {
-      distance = radius(j);
-      for (int k = 0; k < boundaries_[i].size(); ++k)
-        distance = std::min(distance, radius(j) - std::abs(boundaries_[i].node(k) - boundaries_[j].pose.centre));
-    }
-    if (distance < close_pair * std::min(radius(i), radius(j))) pairs.push_back({i, j});
+  std::vector<Complex> centres;
+  std::vector<double> radii;
+  double reach = 0.0;
+  for (const Body& body : bodies) {
+    centres.push_back(body.pose.centre);
+    radii.push_back(body.shape.circumradius());
+    if (!body.fixed) reach = std::max(reach, close_pair * radii.back());
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<std::pair<int, int>> pairs;
+  for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, reach))
+    if (gap(bodies[i], bodies[j]).value < close_pair * std::min(radii[i], radii[j])) pairs.push_back({i, j});
+  const int wall = body_count();
+  for (int i = 0; has_container() && i < wall; ++i) {
+    double distance = boundaries_[wall].shape->shape.circumradius();
+    const double radius = distance;
+    for (int k = 0; k < boundaries_[i].size(); ++k)
+      distance = std::min(distance, radius - std::abs(boundaries_[i].node(k) - boundaries_[wall].pose.centre));
+    if (distance < close_pair * radii[i]) pairs.push_back({i, wall});
+  }
   return pairs;
 }
 
