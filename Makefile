@@ -113,6 +113,7 @@ TG_CONTINUED       = global_full_dt0.01 global_self_dt0.01 local_start_dt0.025 l
 TG_FREE            = $(foreach p,32 64,$(foreach t,0.0025 0.01 0.025,free_points$(p)_dt$(t))) \
                        $(foreach t,0.0025 0.01 0.025,free_points32_dt$(t)_near)
 TG_ITERATIONS      = $(foreach k,none block pair,cold_$(k) $(foreach t,1e-6 1e-8,extrapolated_$(k)_$(t))) points
+INJECTION_CASES    = seed1 seed2 seed3 seed1_plain seed1_stiv
 TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
 
 # $(call experiment,name,cases,quick cases): `name` makes all its cases and then its tables.
@@ -137,6 +138,7 @@ $(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES)))
 $(eval $(call experiment,close_evaluation,$(CLOSE_CASES),$(CLOSE_CASES)))
 $(eval $(call experiment,fig4_taylor_green,$(FIG4_CASES),quick))
 $(eval $(call experiment,taylor_green_claims,$(TG_CASES),points))
+$(eval $(call experiment,fig6_injection,$(INJECTION_CASES),))
 $(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
 
 reproduce: $(BUILD)/verify
