@@ -14,6 +14,7 @@
 
 #include "base.hpp"
 #include "csv.hpp"
+#include "run.hpp"
 #include "threads.hpp"
 #include "version.hpp"
 
@@ -28,6 +29,7 @@ class Results {
     std::filesystem::create_directories(folder_);
   }
 
+  const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path path(const std::string& name) const { return folder_ / (name + ".csv"); }
   bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
 
@@ -99,6 +101,9 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
     set_thread_count(1);
     experiment.run(name, Results(root, experiment.name));
     return 0;
+  } catch (const Interruption& end) {
+    std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), end.message.c_str());
+    return 128 + end.signal;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), error.what());
     return 2;

@@ -17,9 +17,10 @@ double aspect_ratio(const Shape& shape) { return shape.circumradius() / shape.in
 // Factor by which the close evaluation oversamples; the bandwidth on an ellipse grows with its aspect.
 int upsampling_for(const Shape& shape) { return aspect_ratio(shape) <= 3.0 ? 2 : 3; }
 
-std::variant<CloseEvaluation, InterpolationEvaluation> close_evaluation(const Shape& shape, const Curve& curve,
-                                                                       Side side, NearSingular near_singular) {
+std::variant<CloseEvaluation, CircleEvaluation, InterpolationEvaluation> close_evaluation(
+    const Shape& shape, const Discretisation& nodes, const Curve& curve, Side side, NearSingular near_singular) {
   if (near_singular == NearSingular::interpolation) return InterpolationEvaluation(curve, side);
+  if (shape.a == shape.b && nodes.clusters.empty()) return CircleEvaluation(shape.a, nodes.points, side);
   return CloseEvaluation(curve, side, upsampling_for(shape));
 }
 
@@ -56,7 +57,7 @@ Matrix real_matrix(const VelocityRows& rows, Complex turn) {
 DiscreteShape::DiscreteShape(const Shape& shape_, const Discretisation& nodes_, BoundaryKind kind_, double log_length_,
                              NearSingular near_singular)
     : shape(shape_), nodes(nodes_), kind(kind_), log_length(log_length_), curve(shape_.curve(nodes_)),
-      close_(close_evaluation(shape, curve, side(), near_singular)) {
+      close_(close_evaluation(shape, nodes, curve, side(), near_singular)) {
   const int n = size();
   const Matrix B = rigid_motions(curve);
   Matrix weighted = B;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cauchy.hpp"
+#include "circle_evaluation.hpp"
 #include "close_flow.hpp"
 #include "curve.hpp"
 #include "interpolation.hpp"
@@ -82,7 +83,7 @@ class DiscreteShape {
   Eigen::Matrix<double, 3, Eigen::Dynamic> closure;  // beta B_w^T, 3 x 2N
 
  private:
-  std::variant<CloseEvaluation, InterpolationEvaluation> close_;
+  std::variant<CloseEvaluation, CircleEvaluation, InterpolationEvaluation> close_;
 };
 
 // A discrete shape where it stands, and the place of its density among those of a suspension.

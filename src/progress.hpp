@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "simulation.hpp"
 
@@ -9,8 +10,8 @@ namespace stokes {
 
 class Progress {
  public:
-  // Of a run from start_time to end_time.
-  explicit Progress(double end_time, double start_time = 0.0);
+  // Of a run from start_time to end_time; `label` stands before every line.
+  explicit Progress(double end_time, double start_time = 0.0, const std::string& label = {});
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();
@@ -26,6 +27,7 @@ class Progress {
 
   void clear_line();
 
+  std::string label_;
   double start_time_, end_time_;
   bool terminal_, line_open_ = false;
   Clock::time_point start_, last_;

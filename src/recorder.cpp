@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "rheology.hpp"
+
 namespace stokes {
 
 namespace {
@@ -14,8 +16,10 @@ const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x"
                                                      "ux",   "uy",   "omega", "fx", "fy", "torque"};
 std::vector<std::string> steps_columns(StepsColumns columns) {
   std::vector<std::string> names = {"step",           "time",     "dt",      "gmres_iterations",
-                                    "ncp_iterations", "contacts", "min_gap", "density_tail"};
-  if (columns == StepsColumns::between_walls) names.insert(names.end(), {"inner_torque", "outer_torque"});
+                                    "ncp_iterations", "contacts", "min_gap", "density_tail", "stokes_solves"};
+  if (columns == StepsColumns::between_walls) names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity",
+                              "stresslet_shear", "stresslet_normal_difference", "contact_shear",
+                              "contact_normal_difference"});
   return names;
 }
 
@@ -106,10 +110,15 @@ void Recorder::record(const StepRecord& record) {
   if (outcome) {
     for (double value : {outcome->dt, static_cast<double>(outcome->gmres_iterations),
                          static_cast<double>(outcome->ncp_iterations), contact_count(*outcome), record.min_gap,
-                         outcome->density_tail})
+                         outcome->density_tail, static_cast<double>(outcome->stokes_solves)})
       summary.push_back(value);
-    if (columns_ == StepsColumns::between_walls)
-      for (double value : {outcome->reaction.back().torque, outcome->container.torque}) summary.push_back(value);
+    if (columns_ == StepsColumns::between_walls) {
+      const ParticleStress stress = particle_stress(record.bodies, *outcome);
+      for (double value : {outcome->reaction.back().torque, outcome->container.torque, order_parameter(record.bodies),
+                           effective_viscosity(record.bodies, *outcome), stress.stresslets.shear,
+                           stress.stresslets.normal_difference, stress.contacts.shear, stress.contacts.normal_difference})
+        summary.push_back(value);
+    }
   } else {
     summary.resize(steps_columns(columns_).size(), nan);
     summary[6] = record.min_gap;

@@ -96,7 +96,8 @@ ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& h
 
 Stepper::Configuration& Stepper::configuration(double driving) {
   if (now_ && now_->driving == driving && now_->fineness == fineness_) return *now_;
-  const int spent = now_ && now_->driving == driving ? now_->gmres_iterations : 0;
+  const bool again = now_ && now_->driving == driving;
+  const int spent = again ? now_->gmres_iterations : 0, solves = again ? now_->stokes_solves : 0;
   now_.emplace(bodies_, options_, shapes_, driving, fineness_);
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
@@ -111,6 +112,7 @@ Stepper::Configuration& Stepper::configuration(double driving) {
   }
   now_->gmres_iterations = spent + solution.iterations;
   now_->background_iterations = solution.iterations;
+  now_->stokes_solves = solves + 1;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
 }
@@ -118,6 +120,7 @@ Stepper::Configuration& Stepper::configuration(double driving) {
 void Stepper::restore(const std::vector<Pose>& poses, StepperMemory memory) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = poses[i];
   memory_ = std::move(memory);
+  turn_walls(0.0);
   now_.reset();
 }
 
@@ -132,6 +135,7 @@ Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenche
   }
   StokesSolution solution = now.system.solve({}, wrenches, guess);
   now.gmres_iterations += solution.iterations;
+  ++now.stokes_solves;
   now.latest_contact = solution.density;
   now.answers.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
   return now.answers.back().second;
@@ -198,9 +202,11 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   outcome.accepted = result.solved;
   outcome.failure = result.failure;
   outcome.dt = dt;
+  outcome.driving = driving;
   outcome.gmres_iterations = now.gmres_iterations;
   outcome.background_iterations = now.background_iterations;
   outcome.ncp_iterations = now.ncp_iterations;
+  outcome.stokes_solves = now.stokes_solves;
   if (result.solved) accept(now, dt, result, outcome);
   return outcome;
 }
@@ -223,20 +229,29 @@ void Stepper::remember(Configuration& now, ComplexVector total) {
   memory_.total = {memory_.path, now.nodes, std::move(total)};
 }
 
+// `way`: driving times the length of the step just made.
+void Stepper::turn_walls(double way) {
+  memory_.path += way;
+  for (Body& body : bodies_)
+    if (body.fixed) body.pose.angle += body.surface.angular_velocity * way;
+  if (bodies_.container) bodies_.container->angle = bodies_.container->surface.angular_velocity * memory_.path;
+}
+
 void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome) {
   outcome.contacts = std::move(result.contacts);
   outcome.contact_wrench = std::move(result.wrenches);
   outcome.container_contact = result.container_wrench;
   outcome.reaction = now.system.reactions(result.motion.density);
-  std::vector<Wrench> driving = outcome.contact_wrench;
+  std::vector<Wrench> wrenches = outcome.contact_wrench;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    driving[i].force += bodies_[i].force, driving[i].torque += bodies_[i].torque;
-  outcome.container = now.system.container_wrench(result.motion.density, driving);
+    wrenches[i].force += bodies_[i].force, wrenches[i].torque += bodies_[i].torque;
+  outcome.container = now.system.container_wrench(result.motion.density, wrenches);
+  outcome.stresslets = now.system.stresslets(result.motion.density, wrenches);
   outcome.density_tail = now.system.density_tail(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
   remember(now, std::move(result.motion.density));
-  memory_.path += now.driving * dt;
+  turn_walls(now.driving * dt);
   now_.reset();
   fineness_ = 1.0;
 }

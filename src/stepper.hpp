@@ -52,15 +52,17 @@ struct StepperOptions {
 struct StepOutcome {
   bool accepted = false;
   std::string failure;  // empty when accepted
-  double dt = 0.0;
+  double dt = 0.0, driving = 1.0;
   int gmres_iterations = 0, ncp_iterations = 0;
   int background_iterations = 0;  // of GMRES, those of the latest contact-free solve
+  int stokes_solves = 0;          // with any forces
   std::vector<ActiveContact> contacts;
   std::vector<RigidVelocity> velocity;
   std::vector<Wrench> contact_wrench;  // on every body
   Wrench container_contact;            // on the container, about its centre
   std::vector<Wrench> reaction;        // of fixed bodies on the fluid
   Wrench container;                    // of the container on the fluid, about its centre
+  std::vector<Complex> stresslets;     // of the bodies, S_11 + i S_12 about their centres
   double density_tail = 0.0;
 };
 
@@ -113,7 +115,7 @@ class Stepper {
     StokesSystem system;
     Response contact_free;
     ComplexVector latest_contact;  // density of the last answer to contact forces
-    int gmres_iterations = 0, background_iterations = 0, ncp_iterations = 0;
+    int gmres_iterations = 0, background_iterations = 0, ncp_iterations = 0, stokes_solves = 0;
     std::vector<std::pair<std::vector<Wrench>, Response>> answers;  // to forces and torques
   };
   Configuration& configuration(double driving);
@@ -124,6 +126,7 @@ class Stepper {
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
   void remember(Configuration& now, ComplexVector total);
+  void turn_walls(double way);
   void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);
 
   Suspension bodies_;

@@ -72,7 +72,7 @@ void StokesSystem::place(const Suspension& bodies, const std::vector<Discretisat
   if (bodies.container) {
     const Container& c = *bodies.container;
     boundaries_.push_back({shapes.get({c.radius, c.radius}, {c.points, {}}, BoundaryKind::container, log_length_),
-                           {c.centre, 0.0}, 1.0, 0});
+                           {c.centre, c.angle}, std::polar(1.0, c.angle), 0});
     surfaces_.push_back(c.surface);
   }
   int offset = 0;

@@ -19,7 +19,8 @@ struct Pose {
   Complex axis() const { return std::polar(1.0, angle); }
 };
 
-// Velocity of a wall's surface, the wall itself staying where it is:
+// Velocity of a wall's surface, the wall itself staying where it is (the nodes of one that turns are points of the
+// surface, so that bodies carried along with it keep their places among them):
 //   u(x) = angular_velocity perp(x - c) + source (x - c) / (2 pi |x - c|^2),  c the wall's centre.
 struct SurfaceMotion {
   double angular_velocity = 0.0;
@@ -49,6 +50,7 @@ struct Container {
   double radius = 0.0;
   int points = 0;  // on its boundary
   SurfaceMotion surface{};
+  double angle = 0.0;  // by which the surface has turned
 };
 
 // The container in the place of a body's index: the second of a pair, after every body. It is an entry of no array.

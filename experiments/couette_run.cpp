@@ -1,0 +1,144 @@
+// Section 4.4: one suspension between rotating cylinders for two revolutions of the outer one: order parameter,
+// effective viscosity, stress, contacts. Cases phi<percent>_lambda<aspect ratio>_seed<k>, and variants of some:
+// _stiv (interference volumes with balanced clusters), _halfstep, _points64, and the short _quick.
+//
+// The folder of a case holds a case file and its bodies, which `simulate` reads too, and the results of the run; an
+// interrupted run goes on from its checkpoint. <case>_series.csv has one row a step, <case>.csv the means.
+
+#include <cmath>
+
+#include "couette.hpp"
+#include "run.hpp"
+
+namespace {
+
+using namespace stokes;
+
+std::vector<CouetteCase> all_cases() {
+  constexpr int seeds = 9;
+  std::vector<CouetteCase> cases;
+  for (const CouetteSuspension& s : couette_suspensions)
+    for (int seed = 1; seed <= seeds; ++seed) cases.push_back({s, seed, ""});
+  for (const char* variant : {"stiv", "halfstep", "points64", "quick"}) cases.push_back({{5, 3, 80}, 1, variant});
+  return cases;
+}
+
+Case case_of(const CouetteCase& chosen, const std::filesystem::path& folder) {
+  const double step = (chosen.suspension.lambda == 1 ? couette_revolution / 500 : couette_revolution / 1000) /
+                      (chosen.variant == "halfstep" ? 2 : 1);
+  const bool quick = chosen.variant == "quick";
+  const Annulus annulus = couette_annulus();
+  const Comments keys = {{"bodies", "bodies.csv"},
+                         {"geometry", "annulus"},
+                         {"inner_radius", format_number(annulus.inner_radius)},
+                         {"outer_radius", format_number(annulus.outer_radius)},
+                         {"wall_points", format_number(annulus.wall_points)},
+                         {"outer_angular_velocity", format_number(couette_rotation)},
+                         {"points_per_body", chosen.variant == "points64" ? "64" : "32"},
+                         {"time_step", format_number(step)},
+                         {"end_time", format_number((quick ? 0.02 : 2.0) * couette_revolution)},
+                         {"min_separation_length", format_number(couette_separation)},
+                         {"contact", chosen.variant == "stiv" ? "stiv" : "gap"},
+                         {"lcp_matrix", "pair"},
+                         {"refine", "near"},
+                         {"gmres_tolerance", "1e-6"},
+                         {"output_every", "20"},
+                         {"output", folder.string()}};
+  std::string text;
+  for (const auto& [key, value] : keys) text += concat(key, " = ", value, "\n");
+  write_file_atomically(folder / "case.txt", text);
+  return read_case(folder / "case.txt", {concat("threads=", thread_count())});
+}
+
+void write_bodies(const Suspension& bodies, const std::filesystem::path& path) {
+  std::string text = "a,b,x,y,theta\n";
+  for (const Body& body : bodies)
+    if (!body.fixed)
+      text += concat(body.shape.a, ",", body.shape.b, ",", body.pose.centre.real(), ",", body.pose.centre.imag(), ",",
+                     body.pose.angle, "\n");
+  write_file_atomically(path, text);
+}
+
+// Over the steps from a time on.
+struct Window {
+  std::vector<double> time;
+  double from;
+
+  double mean(const std::vector<double>& values) const {
+    double sum = 0.0, count = 0.0;
+    for (std::size_t k = 0; k < time.size(); ++k)
+      if (time[k] >= from && !std::isnan(values[k])) sum += values[k], ++count;
+    return count > 0.0 ? sum / count : std::nan("");
+  }
+  double largest(const std::vector<double>& values, double sign = 1.0) const {
+    double result = -std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < time.size(); ++k)
+      if (time[k] >= from && sign * values[k] > result) result = sign * values[k];
+    return sign * result;
+  }
+};
+
+void summarise(const CouetteCase& chosen, const RunSummary& run, const Results& results) {
+  const Table steps = read_csv(results.folder() / chosen.name() / "steps.csv");
+  const std::vector<std::string> columns = {"order_parameter", "effective_viscosity", "contacts", "min_gap",
+                                            "ncp_iterations", "gmres_iterations", "stokes_solves", "stresslet_shear",
+                                            "stresslet_normal_difference", "contact_shear", "contact_normal_difference"};
+  std::vector<double> time = steps.numbers("time");
+  std::vector<std::vector<double>> rows;
+  for (const double t : time) rows.push_back({t, t / couette_revolution});
+  for (const std::string& column : columns) {
+    const std::vector<double> values = steps.numbers(column);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].push_back(values[k]);
+  }
+  std::vector<std::string> header = {"time", "revolutions"};
+  header.insert(header.end(), columns.begin(), columns.end());
+  results.write(chosen.name() + "_series", header, rows);
+
+  const Window all{time, 0.0}, second{time, couette_revolution - 1e-9};
+  const auto values = [&](const char* column) { return steps.numbers(column); };
+  const std::vector<double> inner = values("inner_torque"), outer = values("outer_torque");
+  std::vector<double> unbalanced;
+  for (std::size_t k = 0; k < inner.size(); ++k) unbalanced.push_back(std::abs(inner[k] + outer[k]) / std::abs(inner[k]));
+  results.write(chosen.name(),
+                {{"order_parameter_start", values("order_parameter")[0]},
+                 {"order_parameter", second.mean(values("order_parameter"))},
+                 {"smallest_order_parameter", second.largest(values("order_parameter"), -1.0)},
+                 {"effective_viscosity", second.mean(values("effective_viscosity"))},
+                 {"largest_effective_viscosity", second.largest(values("effective_viscosity"))},
+                 {"smallest_effective_viscosity", second.largest(values("effective_viscosity"), -1.0)},
+                 {"stresslet_shear", second.mean(values("stresslet_shear"))},
+                 {"stresslet_normal_difference", second.mean(values("stresslet_normal_difference"))},
+                 {"contact_shear", second.mean(values("contact_shear"))},
+                 {"contact_normal_difference", second.mean(values("contact_normal_difference"))},
+                 {"contacts", second.mean(values("contacts"))},
+                 {"smallest_gap_over_separation", Window{time, 0.5 * time[1]}.largest(values("min_gap"), -1.0) / couette_separation},
+                 {"torque_imbalance", all.largest(unbalanced)},
+                 {"ncp_iterations_per_step", all.mean(values("ncp_iterations"))},
+                 {"largest_ncp_iterations", all.largest(values("ncp_iterations"))},
+                 {"gmres_iterations_per_step", all.mean(values("gmres_iterations"))},
+                 {"stokes_solves_per_step", all.mean(values("stokes_solves"))},
+                 {"steps", static_cast<double>(run.steps)}},
+                {{"seed", format_number(chosen.seed)}, {"bodies", format_number(chosen.suspension.count)}});
+}
+
+void run(const std::string& name, const Results& results) {
+  const std::vector<CouetteCase> cases = all_cases();
+  const CouetteCase& chosen = *std::find_if(cases.begin(), cases.end(), [&](const CouetteCase& c) { return c.name() == name; });
+  const std::filesystem::path folder = results.folder() / name;
+  std::filesystem::create_directories(folder);
+  write_bodies(couette_bodies(chosen.suspension, static_cast<std::uint64_t>(chosen.seed)), folder / "bodies.csv");
+  const RunSummary summary = run_case(case_of(chosen, folder), name);
+  summarise(chosen, summary, results);
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> result;
+  for (const CouetteCase& c : all_cases()) result.push_back(c.name());
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_experiment({"couette_run", names(), run, [](const Results&) {}}, argc, argv);
+}

@@ -1,0 +1,48 @@
+// What a suspension between two cylinders tells a rheologist: alignment, effective viscosity, bulk stress.
+//
+// Everything here is of the bodies that move, in the frame (r, theta) of the walls' common centre.
+#pragma once
+
+#include "stepper.hpp"
+
+namespace stokes {
+
+// Flow between concentric cylinders that rotate, without bodies: u_theta = A r + B / r.
+struct CouetteFlow {
+  double inner_radius, outer_radius;
+  double inner_angular_velocity, outer_angular_velocity;
+
+  double A() const;
+  double B() const;
+  double velocity(double r) const { return A() * r + B() / r; }
+  double shear_rate(double r) const { return -2.0 * B() / (r * r); }  // r d(u_theta / r) / dr
+  double inner_torque() const { return 4.0 * pi * B(); }              // of the inner cylinder on the fluid
+};
+
+// Of a suspension made by between_walls(): its inner wall is the last body.
+CouetteFlow couette_flow(const Suspension& bodies);
+
+// Mean of cos 2 (theta_j - phi_j - pi/2), phi_j the polar angle of the centre: 1 when all long axes lie along the
+// circles around the walls' centre, -1 when all are radial, 0 for random directions. NaN without free bodies.
+double order_parameter(const Suspension& bodies);
+
+// Torque of the inner cylinder with the bodies over that without: the effective viscosity, the fluid's own being 1.
+// NaN where the cylinders turn together.
+double effective_viscosity(const Suspension& bodies, const StepOutcome& outcome);
+// The same from the outer cylinder, whose torque is the opposite when the bodies bear no torque.
+double effective_viscosity_outer(const Suspension& bodies, const StepOutcome& outcome);
+
+// What the bodies add to the mean stress of the annulus, per area between the walls.
+struct BodyStress {
+  double shear = 0.0;              // sigma_r_theta
+  double normal_difference = 0.0;  // sigma_theta_theta - sigma_rr: along the flow less along its gradient
+};
+
+struct ParticleStress {
+  BodyStress stresslets;  // of the bodies about their centres
+  BodyStress contacts;    // sym(F (x) d): F on the first body of a contact, d from its centre to the second's, or to
+                          // the place of contact on a wall
+};
+ParticleStress particle_stress(const Suspension& bodies, const StepOutcome& outcome);
+
+}  // namespace stokes
