@@ -39,7 +39,7 @@ Case case_of(const CouetteCase& chosen, const std::filesystem::path& folder) {
                          {"end_time", format_number((quick ? 0.02 : 2.0) * couette_revolution)},
                          {"min_separation_length", format_number(couette_separation)},
                          {"contact", chosen.variant == "stiv" ? "stiv" : "gap"},
-                         {"lcp_matrix", "pair"},
+                         {"lcp_matrix", "near"},
                          {"refine", "near"},
                          {"gmres_tolerance", "1e-6"},
                          {"output_every", "20"},

@@ -26,7 +26,7 @@ Words<Coupling> words_of(Coupling) {
   return {{"global", Coupling::global}, {"local", Coupling::local}};
 }
 Words<LcpMatrix> words_of(LcpMatrix) {
-  return {{"full", LcpMatrix::full}, {"pair", LcpMatrix::pair}, {"self", LcpMatrix::self}};
+  return {{"full", LcpMatrix::full}, {"near", LcpMatrix::near}, {"self", LcpMatrix::self}};
 }
 Words<StivGradient> words_of(StivGradient) {
   return {{"full", StivGradient::full}, {"frozen", StivGradient::frozen}};

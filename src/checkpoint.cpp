@@ -145,6 +145,9 @@ void write_memory(Writer& writer, const StepperMemory& memory) {
   writer.line("memory", memory.path, memory.background.size(), memory.contacts.size());
   for (const StepperMemory::Density& density : memory.background) write_density(writer, density);
   write_density(writer, memory.total);
+  write_density(writer, memory.contact);
+  writer.line("multipliers", memory.multipliers.size());
+  for (const EarlierContact::Multiplier& m : memory.multipliers) writer.line("multiplier", m.a, m.b, m.region, m.value);
   for (const auto& [bodies, history] : memory.contacts) {
     writer.line("contact", bodies.first, bodies.second, history.size());
     for (const StepperMemory::Density& density : history) write_density(writer, density);
@@ -159,6 +162,14 @@ StepperMemory read_memory(Reader& reader) {
   const auto contacts = reader.integer<std::size_t>();
   for (StepperMemory::Density& density : memory.background) density = read_density(reader);
   memory.total = read_density(reader);
+  memory.contact = read_density(reader);
+  reader.begin("multipliers");
+  memory.multipliers.resize(reader.integer<std::size_t>());
+  for (EarlierContact::Multiplier& m : memory.multipliers) {
+    reader.begin("multiplier");
+    m.a = reader.integer<int>(), m.b = reader.integer<int>(), m.region = reader.integer<int>();
+    m.value = reader.number();
+  }
   for (std::size_t k = 0; k < contacts; ++k) {
     reader.begin("contact");
     const int a = reader.integer<int>(), b = reader.integer<int>();

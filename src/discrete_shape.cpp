@@ -131,6 +131,20 @@ double DiscreteShape::flux_part(const Complex* density) const {
   return -0.5 / curve.length() * flux;
 }
 
+BoundarySet::BoundarySet(const std::vector<PlacedShape>& boundaries, std::vector<int> members_)
+    : members(std::move(members_)), first(boundaries.size(), -1) {
+  int count = 0;
+  for (const int i : members) first[i] = count, count += boundaries[i].size();
+  nodes.resize(count), weighted_normal.resize(count);
+  for (const int i : members) {
+    const PlacedShape& b = boundaries[i];
+    for (int k = 0; k < b.size(); ++k) {
+      nodes.set(first[i] + k, b.node(k));
+      weighted_normal.set(first[i] + k, b.axis * b.shape->weighted_normal(k));
+    }
+  }
+}
+
 double near_distance(const DiscreteShape& shape, double accuracy) {
   return 0.7 * std::clamp(-std::log10(accuracy), 4.0, 12.0) * shape.curve.max_spacing();
 }

@@ -12,6 +12,7 @@
 #include "circle_evaluation.hpp"
 #include "close_flow.hpp"
 #include "curve.hpp"
+#include "direct_sum.hpp"
 #include "interpolation.hpp"
 #include "shape.hpp"
 #include "suspension.hpp"
@@ -97,6 +98,18 @@ struct PlacedShape {
   Complex node(int k) const { return pose.centre + axis * shape->curve.position[k]; }
   // A point in the frame of the shape.
   Complex local(Complex x) const { return std::conj(axis) * (x - pose.centre); }
+};
+
+// Some of a suspension's boundaries, taken as if there were no others.
+struct BoundarySet {
+  std::vector<int> members;          // increasing
+  std::vector<int> first;            // of each boundary of the suspension, its first node here; -1: not a member
+  PointArray nodes, weighted_normal; // laboratory frame
+
+  BoundarySet() = default;
+  BoundarySet(const std::vector<PlacedShape>& boundaries, std::vector<int> members);
+  int size() const { return nodes.size(); }
+  bool has(int boundary) const { return first[boundary] >= 0; }
 };
 
 // Distance from which on the plain trapezoid rule gives the velocity to an accuracy: 0.7 of the curve's largest point

@@ -108,9 +108,9 @@ class Cycle {
 GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Vector& b,
                   const Vector& guess, const GmresOptions& options) {
   GmresResult result;
-  const double scale = b.norm();
-  result.x = guess.size() == b.size() && scale > 0.0 ? guess : Vector::Zero(b.size());
-  if (scale == 0.0) {
+  const double size = b.norm(), scale = std::max(size, options.scale);
+  result.x = guess.size() == b.size() && size > 0.0 ? guess : Vector::Zero(b.size());
+  if (size == 0.0) {
     result.converged = true;
     return result;
   }
@@ -119,7 +119,7 @@ GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner,
   if (guess.size() == b.size()) {
     A(result.x, image);
     residual -= image;
-    if (!(residual.norm() < scale)) {  // worse than starting from zero
+    if (!(residual.norm() < size)) {  // worse than starting from zero
       result.x.setZero();
       residual = b;
     }

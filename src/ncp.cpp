@@ -20,6 +20,7 @@ struct Candidate {
   Response column;
   double multiplier = 0.0;
   double committed = 0.0;  // multipliers of forces that are no longer unknowns
+  double answered = 0.0;   // multiplier, both kinds, in the latest answer of the whole suspension
 };
 
 constexpr double largest_amplification = 1e6;  // a wedge that is as slim is a jam
@@ -63,6 +64,7 @@ class Iteration {
         base_(contact_free), base_wrenches_{std::vector<Wrench>(start.size()), {}} {
     for (std::size_t i = 0; i < start.size(); ++i)
       if (start[i].fixed) fixed_.push_back(static_cast<int>(i));
+    answer_.density = mobility.earlier.density;
   }
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
@@ -80,7 +82,7 @@ class Iteration {
       if (place != candidates_.end() && identity(place->constraint) == identity(found))
         place->constraint = found;
       else
-        candidates_.insert(place, {found, {}, {}, 0.0, 0.0});
+        candidates_.insert(place, {found, {}, {}, 0.0, 0.0, earlier_multiplier(found)});
     }
   }
 
@@ -225,6 +227,21 @@ class Iteration {
     return true;
   }
 
+  double earlier_multiplier(const ContactConstraint& c) const {
+    for (const EarlierContact::Multiplier& m : mobility_.earlier.multipliers)
+      if (Identity{m.a, m.b, m.region} == identity(c)) return m.value;
+    return 0.0;
+  }
+
+  // The latest answer, changed by the columns as the forces changed since.
+  ComplexVector expected_density() const {
+    ComplexVector density = answer_.density;
+    if (density.size() == 0) density = ComplexVector::Zero(free_.density.size());
+    for (const Candidate& c : candidates_)
+      if (c.column.density.size() > 0) density += (c.multiplier + c.committed - c.answered) * c.column.density;
+    return density;
+  }
+
   void move() {
     wrenches_ = base_wrenches_;
     bool forced = false;
@@ -232,9 +249,15 @@ class Iteration {
       forced = forced || c.multiplier + c.committed > 0.0;
       if (c.multiplier > 0.0) wrenches_.add(c.constraint, c.force, c.multiplier);
     }
-    if (forced && (balance_changes() || mobility_.response)) {
+    if (forced && mobility_.response) {
+      balance_changes();
+      answer_ = mobility_.response(on_fluid(wrenches_), expected_density());
+      for (Candidate& c : candidates_) c.answered = c.multiplier + c.committed;
       motion_ = free_;
-      add_motion((mobility_.response ? mobility_.response : mobility_.column)(on_fluid(wrenches_)), 1.0);
+      add_motion(answer_, 1.0);
+    } else if (forced && balance_changes()) {
+      motion_ = free_;
+      add_motion(mobility_.column(on_fluid(wrenches_)), 1.0);
     } else {
       motion_ = base_;
       for (const Candidate& c : candidates_)
@@ -255,6 +278,7 @@ class Iteration {
   std::vector<Candidate> candidates_;  // sorted by pair and region
   Response base_;                      // motion with the committed forces
   ContactWrenches base_wrenches_;      // and these
+  Response answer_;                    // of the whole suspension to contact forces, where the columns are not its own
   Response motion_;
   ContactWrenches wrenches_;
   std::vector<Pose> poses_;

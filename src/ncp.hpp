@@ -62,9 +62,23 @@ using ConstraintFunction =
 // M f: the response of the suspension to given forces and torques, zero for fixed bodies.
 using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
 
+// The same, solved from the density `guess`.
+using ResponseFunction = std::function<Response(const std::vector<Wrench>&, const ComplexVector& guess)>;
+
+// Contact forces and the density of their answer, as an earlier step left them: near those of this one.
+struct EarlierContact {
+  struct Multiplier {
+    int a, b, region;
+    double value;
+  };
+  std::vector<Multiplier> multipliers;
+  ComplexVector density;  // on the nodes of this step; empty if there was no contact
+};
+
 struct ContactMobility {
   MobilityFunction column;    // M' f for the LCP matrix
-  MobilityFunction response;  // M f for the motion; empty if M' = M, whose columns then superpose
+  ResponseFunction response;  // M f for the motion; empty if M' = M, whose columns then superpose
+  EarlierContact earlier;     // where the first response starts from
 };
 
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with

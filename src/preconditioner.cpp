@@ -24,47 +24,38 @@ Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<Placed
   });
 }
 
-void Preconditioner::apply(const Vector& in, Vector& out) const {
+void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out) const {
   if (kind_ == PreconditionerKind::none) {
     out = in;
     return;
   }
   Vector own(in.size());
-  parallel_for_large(static_cast<long>(boundaries_.size()), in.size() / 2, [&](long i) {
-    const PlacedShape& b = boundaries_[i];
-    own.segment(2 * b.offset, 2 * b.size()).noalias() = b.shape->inverse * in.segment(2 * b.offset, 2 * b.size());
+  parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long n) {
+    const int i = set.members[n];
+    const Eigen::Index first = 2 * set.first[i], count = 2 * boundaries_[i].size();
+    own.segment(first, count).noalias() = boundaries_[i].shape->inverse * in.segment(first, count);
   });
   out = own;
+  std::vector<const Pair*> pairs;
+  for (const Pair& p : pairs_)
+    if (set.has(p.i) && set.has(p.j)) pairs.push_back(&p);
   // Each pair's change goes to a place of its own and is added in the order of the pairs.
-  std::vector<std::pair<Vector, Vector>> changes(pairs_.size());
-  parallel_for_large(static_cast<long>(pairs_.size()), in.size() / 2, [&](long n) {
-    changes[n] = change(pairs_[n], own);
+  std::vector<std::pair<Vector, Vector>> changes(pairs.size());
+  parallel_for_large(static_cast<long>(pairs.size()), set.size(), [&](long n) {
+    changes[n] = change(*pairs[n], set, own);
   });
-  for (std::size_t n = 0; n < pairs_.size(); ++n) {
-    out.segment(2 * boundaries_[pairs_[n].i].offset, changes[n].first.size()) += changes[n].first;
-    out.segment(2 * boundaries_[pairs_[n].j].offset, changes[n].second.size()) += changes[n].second;
+  for (std::size_t n = 0; n < pairs.size(); ++n) {
+    out.segment(2 * set.first[pairs[n]->i], changes[n].first.size()) += changes[n].first;
+    out.segment(2 * set.first[pairs[n]->j], changes[n].second.size()) += changes[n].second;
   }
 }
 
 // What solving a pair together adds to the solutions `own` of its members by themselves.
-std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const Vector& own) const {
-  const auto d_i = own.segment(2 * boundaries_[p.i].offset, 2 * boundaries_[p.i].size());
-  const auto d_j = own.segment(2 * boundaries_[p.j].offset, 2 * boundaries_[p.j].size());
+std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const BoundarySet& set, const Vector& own) const {
+  const auto d_i = own.segment(2 * set.first[p.i], 2 * boundaries_[p.i].size());
+  const auto d_j = own.segment(2 * set.first[p.j], 2 * boundaries_[p.j].size());
   const Vector z_i = p.schur.solve(d_i - p.X * d_j);
   return {z_i - d_i, -p.Y * z_i};
-}
-
-void Preconditioner::apply_to_some(const std::vector<int>& boundaries, const Vector& in, Vector& out) const {
-  out = Vector::Zero(in.size());
-  const auto part = [this](auto& v, int i) { return v.segment(2 * boundaries_[i].offset, 2 * boundaries_[i].size()); };
-  for (const int i : boundaries) part(out, i).noalias() = boundaries_[i].shape->inverse * part(in, i);
-  if (boundaries.size() != 2) return;
-  for (const Pair& p : pairs_)
-    if (std::minmax(p.i, p.j) == std::minmax(boundaries[0], boundaries[1])) {
-      const auto [first, second] = change(p, out);
-      part(out, p.i) += first;
-      part(out, p.j) += second;
-    }
 }
 
 }  // namespace stokes

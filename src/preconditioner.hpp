@@ -27,12 +27,9 @@ class Preconditioner {
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
 
-  // out = M in, densities of all boundaries in their frames. Independent of the number of threads.
-  void apply(const Vector& in, Vector& out) const;
-
-  // The same for a set of boundaries as if there were no others, zero elsewhere: exact for one boundary and for a
-  // close pair; of other sets each boundary by itself.
-  void apply_to_some(const std::vector<int>& boundaries, const Vector& in, Vector& out) const;
+  // out = M in, densities of a set of boundaries in their frames: pairs with both members in it count. Independent of
+  // the number of threads.
+  void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:
   // With X = D_i^-1 C_ij and Y = D_j^-1 C_ji the pair's system is [I X; Y I] z = [D_i^-1 r_i; D_j^-1 r_j], and
@@ -43,7 +40,7 @@ class Preconditioner {
     Eigen::PartialPivLU<Matrix> schur;
   };
 
-  std::pair<Vector, Vector> change(const Pair& pair, const Vector& own) const;
+  std::pair<Vector, Vector> change(const Pair& pair, const BoundarySet& set, const Vector& own) const;
 
   PreconditionerKind kind_;
   const std::vector<PlacedShape>& boundaries_;

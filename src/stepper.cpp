@@ -19,6 +19,8 @@ constexpr int stiv_increments_after = 8;
 // Densities that the next one is extrapolated from: quadratic, which on Taylor-Green flow saves twice as many
 // iterations as starting from the previous one.
 constexpr std::size_t extrapolation_points = 3;
+// Of LcpMatrix::near: what the bodies that are left out contribute is no less.
+constexpr double column_tolerance = 1e-3;
 constexpr double finest = 4.0;  // largest fineness of clusters
 
 // A density on other nodes, boundary by boundary.
@@ -113,6 +115,7 @@ Stepper::Configuration& Stepper::configuration(double driving) {
   now_->gmres_iterations = spent + solution.iterations;
   now_->background_iterations = solution.iterations;
   now_->stokes_solves = solves + 1;
+  now_->data_norm = solution.data_norm;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
 }
@@ -124,25 +127,24 @@ void Stepper::restore(const std::vector<Pose>& poses, StepperMemory memory) {
   now_.reset();
 }
 
-Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches) {
+Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches, const ComplexVector& guess,
+                          double scale) {
   for (const auto& [known, response] : now.answers)
     if (same(known, wrenches)) return response;
-  ComplexVector guess;
-  if (options_.lcp_matrix != LcpMatrix::full) {
-    guess = now.latest_contact;  // the forces of the iterate before
-  } else if (const auto past = memory_.contacts.find(ends_of(wrenches)); past != memory_.contacts.end()) {
-    guess = extrapolated(past->second, now);
-  }
-  StokesSolution solution = now.system.solve({}, wrenches, guess);
+  StokesSolution solution = now.system.solve({}, wrenches, guess, scale);
   now.gmres_iterations += solution.iterations;
   ++now.stokes_solves;
-  now.latest_contact = solution.density;
   now.answers.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
   return now.answers.back().second;
 }
 
-Response Stepper::respond_in_pairs(const Configuration& now, const std::vector<Wrench>& wrenches) const {
-  StokesSolution solution = now.system.solve_apart(wrenches);
+Response Stepper::respond_to_contact(Configuration& now, const std::vector<Wrench>& wrenches) {
+  const auto past = memory_.contacts.find(ends_of(wrenches));
+  return respond(now, wrenches, past == memory_.contacts.end() ? ComplexVector() : extrapolated(past->second, now));
+}
+
+Response Stepper::respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const {
+  StokesSolution solution = now.system.solve_nearby(wrenches, column_tolerance);
   return {std::move(solution.velocity), std::move(solution.density)};
 }
 
@@ -155,16 +157,18 @@ Response Stepper::respond_alone(const Configuration& now, const std::vector<Wren
 }
 
 NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp) {
-  const MobilityFunction full = [&](const std::vector<Wrench>& w) { return respond(now, w); };
-  const MobilityFunction in_pairs = [&](const std::vector<Wrench>& w) { return respond_in_pairs(now, w); };
+  const ResponseFunction full = [&](const auto& w, const auto& guess) { return respond(now, w, guess, now.data_norm); };
+  const MobilityFunction column = [&](const std::vector<Wrench>& w) { return respond_to_contact(now, w); };
+  const MobilityFunction nearby = [&](const std::vector<Wrench>& w) { return respond_nearby(now, w); };
   const MobilityFunction alone = [&](const std::vector<Wrench>& w) { return respond_alone(now, w); };
-  ContactMobility mobility{full, {}};
+  ContactMobility mobility{column, {}, {}};
   if (options_.coupling == Coupling::local)
-    mobility = {alone, {}};
+    mobility = {alone, {}, {}};
   else if (options_.lcp_matrix == LcpMatrix::self)
-    mobility = {alone, full};
-  else if (options_.lcp_matrix == LcpMatrix::pair)
-    mobility = {in_pairs, full};
+    mobility = {alone, full, {}};
+  else if (options_.lcp_matrix == LcpMatrix::near)
+    mobility = {nearby, full, {memory_.multipliers, {}}};
+  if (!mobility.earlier.multipliers.empty()) mobility.earlier.density = moved(memory_.contact, now.nodes);
   const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
     NcpOptions options = ncp;
     if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;
@@ -211,7 +215,7 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   return outcome;
 }
 
-void Stepper::remember(Configuration& now, ComplexVector total) {
+void Stepper::remember(Configuration& now, ComplexVector total, const std::vector<ActiveContact>& active) {
   const auto append = [&](std::vector<StepperMemory::Density>& history, ComplexVector density) {
     history.push_back({memory_.path, now.nodes, std::move(density)});
     if (history.size() > extrapolation_points) history.erase(history.begin());
@@ -226,6 +230,13 @@ void Stepper::remember(Configuration& now, ComplexVector total) {
       append(history, std::move(response.density));
     }
   memory_.contacts = std::move(contacts);
+  memory_.contact = {};
+  memory_.multipliers.clear();
+  if (options_.lcp_matrix == LcpMatrix::near && !active.empty()) {
+    memory_.contact = {memory_.path, now.nodes, total - now.contact_free.density};
+    for (const ActiveContact& c : active)
+      memory_.multipliers.push_back({c.constraint.a, c.constraint.b, c.constraint.region, c.multiplier});
+  }
   memory_.total = {memory_.path, now.nodes, std::move(total)};
 }
 
@@ -250,7 +261,7 @@ void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutco
   outcome.density_tail = now.system.density_tail(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
-  remember(now, std::move(result.motion.density));
+  remember(now, std::move(result.motion.density), outcome.contacts);
   turn_walls(now.driving * dt);
   now_.reset();
   fineness_ = 1.0;

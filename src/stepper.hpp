@@ -27,7 +27,7 @@ enum class Coupling {
 // The mobility in the matrix of the linear complementarity problems.
 enum class LcpMatrix {
   full,  // the one that moves the bodies: a Stokes solve for each contact
-  pair,  // the two bodies of each contact as if there were no others; every iterate is then moved with the full
+  near,  // the bodies around each contact as if there were no others; every iterate is then moved with the full
          // mobility: one Stokes solve for each iteration
   self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
          // Coupling::local
@@ -77,6 +77,8 @@ struct StepperMemory {
   double path = 0.0;
   std::vector<Density> background;  // of the latest steps per unit of driving, the newest last
   Density total;                    // of the latest step, contact forces included
+  Density contact;                  // of the latest step's contact forces alone, where LcpMatrix::near found them
+  std::vector<EarlierContact::Multiplier> multipliers;  // and these
   // Answers to unit forces between the bodies that were in contact in the latest step, newest last.
   std::map<std::pair<int, int>, std::vector<Density>> contacts;
 };
@@ -114,18 +116,20 @@ class Stepper {
     std::vector<Discretisation> nodes;
     StokesSystem system;
     Response contact_free;
-    ComplexVector latest_contact;  // density of the last answer to contact forces
+    double data_norm = 0.0;  // of its right-hand side
     int gmres_iterations = 0, background_iterations = 0, ncp_iterations = 0, stokes_solves = 0;
     std::vector<std::pair<std::vector<Wrench>, Response>> answers;  // to forces and torques
   };
   Configuration& configuration(double driving);
   BackgroundFlow driven(double driving) const;
   ComplexVector extrapolated(const std::vector<StepperMemory::Density>& history, const Configuration& now) const;
-  Response respond(Configuration& now, const std::vector<Wrench>& wrenches);
-  Response respond_in_pairs(const Configuration& now, const std::vector<Wrench>& wrenches) const;
+  Response respond(Configuration& now, const std::vector<Wrench>& wrenches, const ComplexVector& guess,
+                   double scale = 0.0);
+  Response respond_to_contact(Configuration& now, const std::vector<Wrench>& wrenches);
+  Response respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
-  void remember(Configuration& now, ComplexVector total);
+  void remember(Configuration& now, ComplexVector total, const std::vector<ActiveContact>& contacts);
   void turn_walls(double way);
   void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);
 

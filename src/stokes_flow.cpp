@@ -13,11 +13,11 @@ namespace stokes {
 std::vector<PointFlow> StokesSystem::summed_flow(const PointArray& points, const ComplexVector& lab_density) const {
   FlowFields fields;
   SourceStrengths strengths;
-  strengths.weighted_normal = &weighted_normal_, strengths.density = &lab_density;
+  strengths.weighted_normal = &all_.weighted_normal, strengths.density = &lab_density;
   if (fmm_ && points.size() >= fmm_crossover)
-    FmmPlan(nodes_, points, {1e-11}).evaluate(strengths, FlowOutput::gradient, fields);
+    FmmPlan(all_.nodes, points, {1e-11}).evaluate(strengths, FlowOutput::gradient, fields);
   else
-    direct_fields(points, nodes_, strengths, FlowOutput::gradient, fields);
+    direct_fields(points, all_.nodes, strengths, FlowOutput::gradient, fields);
   std::vector<PointFlow> result(points.size());
   for (int i = 0; i < points.size(); ++i)
     result[i] = {fields.velocity[i], fields.pressure[i], fields.velocity_x[i], fields.velocity_y[i]};
@@ -32,7 +32,7 @@ std::vector<int> StokesSystem::near_points(const PlacedShape& b, const std::vect
     const double r = std::abs(points[i] - b.pose.centre);
     if (inside ? r < radius - limit : r > radius + limit) continue;
     for (int k = b.offset; k < b.offset + b.size(); ++k)
-      if (std::norm(points[i] - nodes_[k]) < limit * limit) {
+      if (std::norm(points[i] - all_.nodes[k]) < limit * limit) {
         near.push_back(i);
         break;
       }
@@ -43,7 +43,7 @@ std::vector<int> StokesSystem::near_points(const PlacedShape& b, const std::vect
 // Near a boundary the trapezoid sum of its nodes is left out, not taken back: next to a node it is all round-off.
 std::vector<PointFlow> StokesSystem::double_layer_flow(const std::vector<Complex>& points,
                                                        const ComplexVector& density) const {
-  const ComplexVector lab = in_laboratory(density.data());
+  const ComplexVector lab = in_laboratory(all_, density.data());
   const long boundary_count = static_cast<long>(boundaries_.size());
   std::vector<std::vector<int>> near(boundary_count);
   std::vector<std::vector<PointFlow>> close(boundary_count);
@@ -71,7 +71,7 @@ std::vector<PointFlow> StokesSystem::double_layer_flow(const std::vector<Complex
     for (int j = 0; j < boundary_count; ++j) {
       if (std::binary_search(beside[i].begin(), beside[i].end(), j)) continue;
       for (int k = boundaries_[j].offset; k < boundaries_[j].offset + boundaries_[j].size(); ++k)
-        result[i] += stresslet_flow(points[i] - nodes_[k], weighted_normal_[k], lab[k]);
+        result[i] += stresslet_flow(points[i] - all_.nodes[k], all_.weighted_normal[k], lab[k]);
     }
   });
   for (int j = 0; j < boundary_count; ++j)

@@ -47,6 +47,7 @@ struct StokesSolution {
   std::vector<Wrench> reaction;         // of fixed bodies on the fluid, about their centres; zero for free ones
   int iterations = 0;                   // GMRES iterations
   double residual = 0.0;                // relative true residual
+  double data_norm = 0.0;               // of the right-hand side, what it is relative to
 };
 
 // Nodes of every body when all have `points`, or their own number.
@@ -65,22 +66,25 @@ class StokesSystem {
       : StokesSystem(bodies, equal_nodes(bodies, points), shapes, options) {}
 
   int body_count() const { return static_cast<int>(surfaces_.size()) - (has_container() ? 1 : 0); }
-  int node_count() const { return nodes_.size(); }
+  int node_count() const { return all_.size(); }
   const std::vector<PlacedShape>& boundaries() const { return boundaries_; }
 
   // Rigid velocities and densities for a background flow and given forces and torques (one per body, not read for
-  // fixed ones; empty: none). `guess`: a density to start from (empty: zero). NumericalError when GMRES fails.
+  // fixed ones; empty: none). `guess`: a density to start from (empty: zero). The tolerance is relative to the norm of
+  // the data or to `scale`, if that is larger: the data_norm of what the solution is added to. NumericalError when
+  // GMRES fails.
   StokesSolution solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
-                       const ComplexVector& guess = {}) const;
+                       const ComplexVector& guess = {}, double scale = 0.0) const;
 
   // One block-Jacobi sweep of the same equations: each boundary's own block is solved for, the double layers of
   // the others are taken from `lagged` (a density of this system; empty: zero). Locally implicit stepping.
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& lagged) const;
 
-  // The answer of the bodies that the wrenches act on as if there were no others; exact for two close bodies,
-  // those of a contact, otherwise each by itself. Others stay where they are.
-  StokesSolution solve_apart(const std::vector<Wrench>& wrenches) const;
+  // The answer to wrenches of the bodies that they act on and of those around them, within about a body's length, as
+  // if there were no others, to the given tolerance; the rest does not move. Cost: none that grows with the number of
+  // bodies but for a look at each.
+  StokesSolution solve_nearby(const std::vector<Wrench>& wrenches, double tolerance) const;
 
   // For any velocity on the boundaries (all nodes, laboratory frame) in place of that of the flow and the walls.
   StokesSolution solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess = {}) const;
@@ -120,25 +124,28 @@ class StokesSystem {
   void find_completion_columns();
   std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;
   Matrix interaction(int target, int source) const;
-  ComplexVector in_laboratory(const Complex* density) const;
+  BoundarySet around(const std::vector<Wrench>& wrenches) const;
+
+  ComplexVector in_laboratory(const BoundarySet& set, const Complex* density) const;
+  ComplexVector double_layer(const BoundarySet& set, const Complex* density) const;
+  void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
+  void finish_boundary(const BoundarySet& set, int i, const Vector& in, Complex* result) const;
+  ComplexVector boundary_data(const BoundarySet& set, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
+  Vector straining_data(const BoundarySet& set, ComplexVector data, std::vector<RigidVelocity>& rigid) const;
+  StokesSolution solve_data(const BoundarySet& set, ComplexVector data, const ComplexVector& guess, double tolerance,
+                            double scale = 0.0) const;
+  void finish(const BoundarySet& set, const Vector& density, StokesSolution& solution) const;
+
   std::vector<PointFlow> double_layer_flow(const std::vector<Complex>& points, const ComplexVector& density) const;
   std::vector<PointFlow> summed_flow(const PointArray& points, const ComplexVector& lab_density) const;
   std::vector<int> near_points(const PlacedShape& boundary, const std::vector<Complex>& points) const;
-  ComplexVector double_layer(const Complex* density) const;
-  void apply(const Vector& in, Vector& out) const;
-  void finish_boundary(int i, const Vector& in, Complex* result) const;
-  Vector straining_data(ComplexVector data, std::vector<RigidVelocity>& rigid) const;
-  void finish(const Vector& density, StokesSolution& solution) const;
-  StokesSolution solve_data(ComplexVector data, const ComplexVector& guess) const;
-  ComplexVector boundary_data(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
-  Complex driven_velocity(Complex x, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
 
   StokesOptions options_;
   std::vector<PlacedShape> boundaries_;  // bodies, then the container
   std::vector<SurfaceMotion> surfaces_;  // of the boundaries
   std::vector<int> fixed_;               // the fixed bodies
   double log_length_ = 1.0;
-  PointArray nodes_, weighted_normal_;
+  BoundarySet all_;
   std::vector<NearBlock> near_;      // ordered by target
   std::vector<int> first_near_;      // near_ of boundary i: [first_near_[i], first_near_[i + 1])
   Matrix completion_;                // flows of unit force and torque of the fixed bodies at all nodes, 2N x 3 fixed

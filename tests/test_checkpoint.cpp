@@ -159,7 +159,7 @@ TEST_CASE("a run goes on from any of its steps to the same bits") {
   check_every_restart({"adaptive=yes", "time_step=.3", "end_time=5"}, passing_discs, "min_separation_length = .3\n");
   check_every_restart({"coupling=local"}, passing_discs, "min_separation_length = .3\n");
   check_every_restart({"contact=stiv"}, passing_discs, "min_separation_length = .3\n");
-  check_every_restart({"lcp_matrix=pair", "refine=near"}, squeezed, "min_separation_length = .01\n");
+  check_every_restart({"lcp_matrix=near", "refine=near"}, squeezed, "min_separation_length = .01\n");
 }
 
 TEST_CASE("what rejected steps leave is kept") {

@@ -1,0 +1,227 @@
+// The operator of the completed equations, their right-hand sides and their solution, for all boundaries or some.
+#include <algorithm>
+#include <cmath>
+
+#include "completion.hpp"
+#include "gmres.hpp"
+#include "stokes_system.hpp"
+#include "text.hpp"
+#include "threads.hpp"
+
+namespace stokes {
+
+namespace {
+
+// Bodies whose circumscribed circles end within this part of their radius from those of the bodies in contact count
+// as near them. What it decides is not a result, but how many iterations find it.
+constexpr double nearby = 1.0;
+
+bool is_zero(const Wrench& w) { return w.force == Complex(0.0) && w.torque == 0.0; }
+
+// The bodies that wrenches act on.
+std::vector<int> acted_on(const std::vector<Wrench>& wrenches) {
+  std::vector<int> bodies;
+  for (std::size_t i = 0; i < wrenches.size(); ++i)
+    if (!is_zero(wrenches[i])) bodies.push_back(static_cast<int>(i));
+  return bodies;
+}
+
+}  // namespace
+
+ComplexVector StokesSystem::in_laboratory(const BoundarySet& set, const Complex* density) const {
+  ComplexVector lab(set.size());
+  for (const int i : set.members) {
+    const PlacedShape& b = boundaries_[i];
+    for (int k = 0; k < b.size(); ++k) lab[set.first[i] + k] = b.axis * density[set.first[i] + k];
+  }
+  return lab;
+}
+
+// The trapezoid sum of all nodes on all others, laboratory frame.
+ComplexVector StokesSystem::double_layer(const BoundarySet& set, const Complex* density) const {
+  const ComplexVector lab = in_laboratory(set, density);
+  if (!fmm_ || &set != &all_) {
+    ComplexVector sum;
+    double_layer_velocity(set.nodes, set.nodes, set.weighted_normal, lab, sum);
+    return sum;
+  }
+  FlowFields fields;
+  SourceStrengths strengths;
+  strengths.weighted_normal = &set.weighted_normal, strengths.density = &lab;
+  fmm_->evaluate(strengths, FlowOutput::velocity, fields);
+  return std::move(fields.velocity);
+}
+
+// The operator: the double layer of all nodes on all nodes is one sum, to which every boundary adds its own
+// diagonal limit, -1/2, its closure and the close corrections from its neighbours.
+void StokesSystem::apply(const BoundarySet& set, const Vector& in, Vector& out) const {
+  const Complex* eta = reinterpret_cast<const Complex*>(in.data());
+  const ComplexVector sum = double_layer(set, eta);
+  Vector wrenches = Vector::Zero(completion_.cols());
+  bool completed = false;
+  for (std::size_t f = 0; f < fixed_.size(); ++f) {
+    if (!set.has(fixed_[f])) continue;
+    const Wrench w = boundaries_[fixed_[f]].shape->wrench(eta + set.first[fixed_[f]]);
+    wrenches.segment<3>(3 * static_cast<Eigen::Index>(f)) << w.force.real(), w.force.imag(), w.torque;
+    completed = true;
+  }
+  Complex* result = reinterpret_cast<Complex*>(out.data());
+  parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long n) {
+    const int i = set.members[n], first = set.first[i];
+    const PlacedShape& b = boundaries_[i];
+    if (completed)
+      out.segment(2 * first, 2 * b.size()).noalias() = completion_.middleRows(2 * b.offset, 2 * b.size()) * wrenches;
+    else
+      out.segment(2 * first, 2 * b.size()).setZero();
+    for (int k = 0; k < b.size(); ++k) result[first + k] += std::conj(b.axis) * sum[first + k];
+    finish_boundary(set, i, in, result + first);
+  });
+}
+
+// `result`: at the boundary's first node.
+void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& in, Complex* result) const {
+  const PlacedShape& b = boundaries_[i];
+  const Curve& curve = b.shape->curve;
+  const Complex* own = reinterpret_cast<const Complex*>(in.data()) + set.first[i];
+  const bool free = b.shape->kind == BoundaryKind::free;
+  const RigidVelocity rigid = free ? b.shape->rigid_part(own) : RigidVelocity{};
+  const double flux = b.shape->kind == BoundaryKind::container ? b.shape->flux_part(own) : 0.0;
+  for (int k = 0; k < curve.size(); ++k) {
+    const Complex t = curve.tangent[k];
+    result[k] += b.shape->diagonal[k] * dot(t, own[k]) * t -
+                 0.5 * (own[k] + rigid.velocity + rigid.omega * perp(curve.position[k])) +
+                 flux / curve.weight[k] * b.shape->weighted_normal(k);
+  }
+  for (int n = first_near_[i]; n < first_near_[i + 1]; ++n) {
+    const NearBlock& near = near_[n];
+    if (!set.has(near.source)) continue;
+    const Vector correction = near.matrix * in.segment(2 * set.first[near.source], 2 * boundaries_[near.source].size());
+    for (std::size_t r = 0; r < near.rows.size(); ++r)
+      result[near.rows[r]] += Complex(correction[2 * r], correction[2 * r + 1]);
+  }
+}
+
+// What the boundaries' equations have on their right, laboratory frame: surface velocities of walls less background
+// and completion flows.
+ComplexVector StokesSystem::boundary_data(const BoundarySet& set, const BackgroundFlow& flow,
+                                          const std::vector<Wrench>& wrenches) const {
+  ComplexVector u(set.size());
+  std::vector<int> forced = acted_on(wrenches);
+  std::erase_if(forced, [this](int j) { return boundaries_[j].shape->kind != BoundaryKind::free; });
+  parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long n) {
+    const int i = set.members[n];
+    const PlacedShape& b = boundaries_[i];
+    const bool moving = b.shape->kind != BoundaryKind::free && flow.walls != 0.0;
+    for (int k = set.first[i]; k < set.first[i] + b.size(); ++k) {
+      const Complex x = set.nodes[k];
+      u[k] = -flow.velocity(x);
+      for (const int j : forced)
+        u[k] -= completion_velocity(boundaries_[j].shape->shape, boundaries_[j].pose, wrenches[j], x, log_length_);
+      if (moving) u[k] += flow.walls * surfaces_[i].velocity(x - b.pose.centre);
+    }
+  });
+  return u;
+}
+
+// Right-hand side in body frames without the rigid part on free bodies, whose exact solution, body by body and in
+// the body frame, is the rigid velocity returned.
+Vector StokesSystem::straining_data(const BoundarySet& set, ComplexVector data, std::vector<RigidVelocity>& rigid) const {
+  const double full_norm = data.norm();
+  rigid.assign(body_count(), {});
+  for (const int i : set.members) {
+    const PlacedShape& b = boundaries_[i];
+    Complex* own = &data[set.first[i]];
+    for (int k = 0; k < b.size(); ++k) own[k] *= std::conj(b.axis);
+    if (b.shape->kind != BoundaryKind::free) continue;
+    const RigidVelocity part = b.shape->rigid_part(own);
+    for (int k = 0; k < b.size(); ++k) own[k] -= part.velocity + part.omega * perp(b.shape->curve.position[k]);
+    rigid[i] = {-part.velocity, -part.omega};
+  }
+  // What is left of a purely rigid right-hand side is round-off, not data.
+  if (data.norm() <= 1e-14 * full_norm) data.setZero();
+  return as_real(data);
+}
+
+// Adds the rigid velocities and the reactions that the density stands for, in the laboratory frame. The density of
+// boundaries outside the set is zero.
+void StokesSystem::finish(const BoundarySet& set, const Vector& density, StokesSolution& solution) const {
+  solution.density = ComplexVector::Zero(node_count());
+  for (const int i : set.members) {
+    const PlacedShape& b = boundaries_[i];
+    as_real(solution.density).segment(2 * b.offset, 2 * b.size()) = density.segment(2 * set.first[i], 2 * b.size());
+    if (b.shape->kind != BoundaryKind::free) continue;
+    const RigidVelocity part = b.shape->rigid_part(&solution.density[b.offset]);
+    solution.velocity[i].velocity = b.axis * (solution.velocity[i].velocity + 0.5 * part.velocity);
+    solution.velocity[i].omega += 0.5 * part.omega;
+  }
+  solution.reaction = reactions(solution.density);
+}
+
+StokesSolution StokesSystem::solve_data(const BoundarySet& set, ComplexVector data, const ComplexVector& guess,
+                                        double tolerance, double scale) const {
+  StokesSolution solution;
+  const Vector rhs = straining_data(set, std::move(data), solution.velocity);
+  const GmresResult result = gmres([&](const Vector& in, Vector& out) { apply(set, in, out); },
+                                   [&](const Vector& in, Vector& out) { preconditioner_->apply(set, in, out); }, rhs,
+                                   guess.size() == set.size() ? Vector(as_real(guess)) : Vector(),
+                                   {.tolerance = tolerance, .max_iterations = options_.gmres_max_iterations, .scale = scale});
+  if (!result.converged)
+    throw NumericalError(concat("GMRES stopped at a relative residual of ", result.residual, " after ", result.iterations,
+                                " iterations; the tolerance is ", tolerance,
+                                " (bodies closer than the points resolve? try more points_per_body or a larger separation)"));
+  solution.iterations = result.iterations;
+  solution.residual = result.residual;
+  solution.data_norm = rhs.norm();
+  finish(set, result.x, solution);
+  return solution;
+}
+
+StokesSolution StokesSystem::solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                                   const ComplexVector& guess, double scale) const {
+  return solve_data(all_, boundary_data(all_, flow, wrenches), guess, options_.gmres_tolerance, scale);
+}
+
+StokesSolution StokesSystem::solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess) const {
+  return solve_data(all_, velocity, guess, options_.gmres_tolerance);
+}
+
+// With A the whole operator and A_d its diagonal blocks, A_d eta = rhs - (A - A_d) lagged is
+// eta = lagged + A_d^-1 (rhs - A lagged).
+StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
+                                   const ComplexVector& lagged) const {
+  StokesSolution solution;
+  Vector residual = straining_data(all_, boundary_data(all_, flow, wrenches), solution.velocity);
+  Vector density = Vector::Zero(residual.size()), change(residual.size());
+  if (lagged.size() == node_count()) {
+    density = as_real(lagged);
+    apply(all_, density, change);
+    residual -= change;
+  }
+  Preconditioner(PreconditionerKind::block, boundaries_, {}, {}).apply(all_, residual, change);
+  density += change;
+  finish(all_, density, solution);
+  return solution;
+}
+
+BoundarySet StokesSystem::around(const std::vector<Wrench>& wrenches) const {
+  std::vector<int> members;
+  const auto reach = [this](int i) { return (1.0 + nearby) * boundaries_[i].shape->shape.circumradius(); };
+  const std::vector<int> centres = acted_on(wrenches);
+  for (int i = 0; i < static_cast<int>(boundaries_.size()); ++i) {
+    const PlacedShape& b = boundaries_[i];
+    const double radius = b.shape->shape.circumradius();
+    if (std::any_of(centres.begin(), centres.end(), [&](int j) {
+          const double apart = std::abs(b.pose.centre - boundaries_[j].pose.centre);
+          return b.shape->kind == BoundaryKind::container ? radius - apart < reach(j) : apart - radius < reach(j);
+        }))
+      members.push_back(i);
+  }
+  return {boundaries_, std::move(members)};
+}
+
+StokesSolution StokesSystem::solve_nearby(const std::vector<Wrench>& wrenches, double tolerance) const {
+  const BoundarySet set = around(wrenches);
+  return solve_data(set, boundary_data(set, {}, wrenches), {}, tolerance);
+}
+
+}  // namespace stokes
