@@ -121,8 +121,9 @@ TEST_CASE("in growing containers a disc's resistance falls to that at a plane wa
     const double first = std::log2(excess[0] / excess[1]), order = std::log2(excess[1] / excess[2]);
     // Without the terms in 1/R_0 and 1/R_0^2; what is left is of third order.
     const double extrapolated = (8.0 * value[2] - 6.0 * value[1] + value[0]) / 3.0;
-    MESSAGE(std::string(name) << ": excess times R_0/a " << 10.0 * excess[0] << " " << 20.0 * excess[1] << " " << 40.0 * excess[2]
-                 << ", order " << first << " " << order << ", extrapolated to " << (extrapolated - exact) / scale);
+    MESSAGE(std::string(name) << ": excess times R_0/a " << 10.0 * excess[0] << " " << 20.0 * excess[1] << " "
+                              << 40.0 * excess[2] << ", order " << first << " " << order << ", extrapolated to "
+                              << (extrapolated - exact) / scale);
     // The second term is a part of a/R_0 times a few of the first: a deviation of the order that halves.
     CHECK(std::abs(order - 1.0) < 0.1);
     CHECK(std::abs(order - 1.0) < 0.6 * std::abs(first - 1.0));

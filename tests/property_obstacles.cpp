@@ -60,7 +60,8 @@ Push push(const Suspension& bodies, int partner) {
       seen.imbalance = std::max({seen.imbalance, std::abs(sum) / size, std::abs(torque) / size});
       const Complex from_partner = wall ? -record.bodies[0].pose.centre
                                         : record.bodies[0].pose.centre - record.bodies[partner].pose.centre;
-      seen.least_repulsion = std::min(seen.least_repulsion, dot(on_disc, from_partner) / (size * std::abs(from_partner)));
+      const double repulsion = dot(on_disc, from_partner) / (size * std::abs(from_partner));
+      seen.least_repulsion = std::min(seen.least_repulsion, repulsion);
     }
   });
   return seen;
