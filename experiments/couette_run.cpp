@@ -127,7 +127,7 @@ void run(const std::string& name, const Results& results) {
   const std::filesystem::path folder = results.folder() / name;
   std::filesystem::create_directories(folder);
   write_bodies(couette_bodies(chosen.suspension, static_cast<std::uint64_t>(chosen.seed)), folder / "bodies.csv");
-  const RunSummary summary = run_case(case_of(chosen, folder), name);
+  const RunSummary summary = simulate_case(case_of(chosen, folder), name);
   summarise(chosen, summary, results);
 }
 

@@ -18,8 +18,4 @@ Body inner_wall(const Annulus& annulus);
 // The bodies between the walls: the outer wall is the suspension's container, the inner wall its last body.
 Suspension between_walls(Suspension bodies, const Annulus& annulus);
 
-// The smallest distance from a body's boundary to the wall around it, to round-off: the wall's radius less the
-// largest distance of a point of the body from the wall's centre; negative for a body that reaches beyond.
-double wall_gap(const Body& body, const Container& wall);
-
 }  // namespace stokes

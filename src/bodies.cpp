@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "container_gap.hpp"
 #include "csv.hpp"
 #include "gap.hpp"
 #include "neighbours.hpp"
@@ -138,7 +139,7 @@ void check_walls(const Table& table, const Suspension& bodies, const Annulus& an
   int worst = 0;
   bool is_outer = false;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
-    const double outer_gap = wall_gap(bodies[i], outer), inner_gap = gap(bodies[i], inner).value;
+    const double outer_gap = gap(bodies[i], outer).value, inner_gap = gap(bodies[i], inner).value;
     if (std::min(outer_gap, inner_gap) >= smallest) continue;
     smallest = std::min(outer_gap, inner_gap);
     worst = i;

@@ -77,8 +77,8 @@ struct EarlierContact {
 
 struct ContactMobility {
   MobilityFunction column;    // M' f for the LCP matrix
-  ResponseFunction response;  // M f for the motion; empty if M' = M, whose columns then superpose
-  EarlierContact earlier;     // where the first response starts from
+  ResponseFunction response{};  // M f for the motion; empty if M' = M, whose columns then superpose
+  EarlierContact earlier{};     // where the first response starts from
 };
 
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with

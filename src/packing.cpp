@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "container_gap.hpp"
 #include "gap.hpp"
 #include "text.hpp"
 
@@ -55,7 +56,7 @@ std::vector<Body> random_bodies(const RandomPlacement& placement, const Suspensi
       const Body body = random.body(placement);
       const double distance = placement.min_distance;
       placed = apart(body, bodies, distance) && apart(body, surroundings, distance) &&
-               (!surroundings.container || wall_gap(body, *surroundings.container) > distance);
+               (!surroundings.container || gap(body, *surroundings.container).value > distance);
       if (placed) bodies.push_back(body);
     }
     if (placed) continue;

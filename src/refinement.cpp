@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap.hpp"
+#include "container_gap.hpp"
 #include "neighbours.hpp"
 
 namespace stokes {
@@ -70,16 +70,14 @@ std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, 
   if (bodies.container) {
     const Container& wall = *bodies.container;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Complex from_centre = bodies[i].pose.centre - wall.centre;
-      if (bodies[i].points > 0 || std::abs(from_centre) == 0.0) continue;
-      // The outermost point in the radial direction; exact for discs, and close to it where a body is near the wall.
-      const Complex n = from_centre / std::abs(from_centre);
-      const Support support = bodies[i].shape.support(std::conj(bodies[i].pose.axis()) * n);
-      const double g = wall.radius - std::abs(from_centre) - support.height;
+      if (bodies[i].points > 0) continue;
+      const Gap between = gap(bodies[i], wall);
+      const double g = std::max(between.value, 0.0);
       if (g > reach) continue;
+      const Support support = bodies[i].shape.support(std::conj(bodies[i].pose.axis()) * between.normal);
       const double curvature = std::max(1.0 / support.curvature_radius - 1.0 / wall.radius, 0.0);
-      const double width = std::sqrt(2.0 * std::max(g, 0.0) / std::max(curvature, 1e-6) + g * g);
-      add_cluster(bodies[i], n, width, fineness, nodes[i]);
+      const double width = std::sqrt(2.0 * g / std::max(curvature, 1e-6) + g * g);
+      add_cluster(bodies[i], between.normal, width, fineness, nodes[i]);
     }
   }
   for (Discretisation& d : nodes) merge(d.clusters);

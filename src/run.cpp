@@ -132,7 +132,7 @@ class Checkpoints {
 
 }  // namespace
 
-RunSummary run_case(const Case& c, const std::string& label) {
+RunSummary simulate_case(const Case& c, const std::string& label) {
   const Suspension bodies = read_suspension(c);
   const double separation = separation_length(c, bodies);
   if (c.threads) set_thread_count(*c.threads);

@@ -17,6 +17,6 @@ struct Interruption {
 // uninterrupted run writes, to the byte. Progress and warnings go to stderr, progress lines behind `label`.
 // SIGINT and SIGTERM end it with an Interruption after the step under way, a second signal at once.
 // InputError before anything is written, NumericalError after everything up to it is.
-RunSummary run_case(const Case& c, const std::string& label = {});
+RunSummary simulate_case(const Case& c, const std::string& label = {});
 
 }  // namespace stokes

@@ -14,7 +14,7 @@ using namespace stokes;
 
 int run(const std::vector<std::string>& arguments) {
   const Case c = read_case(arguments[0], {arguments.begin() + 1, arguments.end()});
-  const RunSummary summary = run_case(c);
+  const RunSummary summary = simulate_case(c);
   std::printf("%ld steps, %ld rejected\n", summary.steps, summary.rejected);
   std::printf("preconditioner factorisations: %d (distinct shapes: %d)\n", summary.factorisations, summary.shapes);
   std::printf("results in %s\n", c.output.c_str());

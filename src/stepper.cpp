@@ -269,20 +269,21 @@ void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutco
 
 double Stepper::geometric_step_limit(double driving) {
   const std::vector<RigidVelocity>& u = configuration(driving).contact_free.velocity;
-  double limit = std::numeric_limits<double>::infinity();
-  std::vector<Complex> centres;
-  std::vector<double> radii;
-  double width = 0.0;
+  double limit = std::numeric_limits<double>::infinity(), width = 0.0;
+  std::vector<Pose> poses;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (u[i].omega != 0.0) limit = std::min(limit, 0.2 / std::abs(u[i].omega));
-    centres.push_back(bodies_[i].pose.centre);
-    radii.push_back(bodies_[i].shape.circumradius());
+    poses.push_back(bodies_[i].pose);
     if (!bodies_[i].fixed) width = std::max(width, bodies_[i].shape.inradius());
   }
-  for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, width)) {
-    const double speed = std::abs(u[i].velocity - u[j].velocity);
-    const double smaller = std::min(bodies_[i].shape.inradius(), bodies_[j].shape.inradius());
-    if (speed > 0.0) limit = std::min(limit, smaller / speed);
+  for (const auto& [i, j] : contact_candidates(bodies_, poses, width)) {
+    Complex approach = u[i].velocity;
+    double smaller = bodies_[i].shape.inradius();
+    if (j != container_index) {
+      approach -= u[j].velocity;
+      smaller = std::min(smaller, bodies_[j].shape.inradius());
+    }
+    if (approach != 0.0) limit = std::min(limit, smaller / std::abs(approach));
   }
   return limit;
 }

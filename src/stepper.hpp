@@ -102,8 +102,9 @@ class Stepper {
   // clusters before the step fails. NumericalError when GMRES fails.
   StepOutcome attempt(double dt, double driving, const NcpOptions& ncp);
 
-  // The largest step in which, by the contact-free velocities, no body turns by more than 0.2 and no two
-  // neighbours approach by more than half of their smaller width.
+  // The largest step in which, by the contact-free velocities, no body turns by more than 0.2, no two neighbours
+  // approach by more than half of their smaller width, and no body beside the container moves by more than half of
+  // its own.
   double geometric_step_limit(double driving);
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "completion.hpp"
+#include "container_gap.hpp"
 #include "gap.hpp"
 #include "neighbours.hpp"
 #include "text.hpp"
@@ -139,7 +140,7 @@ void StokesSystem::find_completion_columns() {
   });
 }
 
-// Pairs whose gap is small; the gap to the container is that of the nearest node.
+// Pairs whose gap is small.
 std::vector<std::pair<int, int>> StokesSystem::close_pairs(const Suspension& bodies) const {
   std::vector<Complex> centres;
   std::vector<double> radii;
@@ -152,14 +153,8 @@ std::vector<std::pair<int, int>> StokesSystem::close_pairs(const Suspension& bod
   std::vector<std::pair<int, int>> pairs;
   for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, reach))
     if (gap(bodies[i], bodies[j]).value < close_pair * std::min(radii[i], radii[j])) pairs.push_back({i, j});
-  const int wall = body_count();
-  for (int i = 0; has_container() && i < wall; ++i) {
-    double distance = boundaries_[wall].shape->shape.circumradius();
-    const double radius = distance;
-    for (int k = 0; k < boundaries_[i].size(); ++k)
-      distance = std::min(distance, radius - std::abs(boundaries_[i].node(k) - boundaries_[wall].pose.centre));
-    if (distance < close_pair * radii[i]) pairs.push_back({i, wall});
-  }
+  for (int i = 0; bodies.container && i < body_count(); ++i)
+    if (gap(bodies[i], *bodies.container).value < close_pair * radii[i]) pairs.push_back({i, body_count()});
   return pairs;
 }
 

@@ -342,13 +342,14 @@ TEST_CASE("an approximate mobility in the matrix changes the iterations, not the
   const GapCollector collector(start, 0.3);
   const ConstraintFunction constraints = constraints_of(collector);
   const MobilityFunction exact = [](const std::vector<Wrench>& w) { return Bed::respond(w); };
+  const ResponseFunction whole = [](const std::vector<Wrench>& w, const ComplexVector&) { return Bed::respond(w); };
   const MobilityFunction stronger = [](const std::vector<Wrench>& w) {
     Response response = Bed::respond(w);
     for (RigidVelocity& u : response.velocity) u.velocity *= 1.5, u.omega *= 1.5;
     return response;
   };
   const NcpResult full = resolve_contacts(start, free, 0.5, constraints, {exact, {}}, {});
-  const NcpResult approximate = resolve_contacts(start, free, 0.5, constraints, {stronger, exact}, {});
+  const NcpResult approximate = resolve_contacts(start, free, 0.5, constraints, {stronger, whole}, {});
   REQUIRE(full.solved);
   REQUIRE(approximate.solved);
   CHECK(approximate.iterations > full.iterations);
@@ -383,7 +384,7 @@ TEST_CASE("without progress the contact problem is given up early only when prog
   const Suspension start = {body(1, 1, 0.0), body(1, 1, 3.0)};
   const GapCollector collector(start, 0.5);
   const ConstraintFunction constraints = constraints_of(collector);
-  const MobilityFunction exact = [](const std::vector<Wrench>& w) { return Bed::respond(w); };
+  const ResponseFunction exact = [](const std::vector<Wrench>& w, const ComplexVector&) { return Bed::respond(w); };
   const MobilityFunction slow = [](const std::vector<Wrench>& w) {
     Response response = Bed::respond(w);
     for (RigidVelocity& u : response.velocity) u.velocity *= 20.0, u.omega *= 20.0;

@@ -88,6 +88,33 @@ TEST_CASE("the gap of an ellipse in a container is that of its densely sampled b
   CHECK(outside < 2500);
 }
 
+TEST_CASE("the distance of an ellipse to the wall around it is that of its farthest boundary point") {
+  const Container wall{{0.5, -1.0}, 10.0, 64, {}};
+  const auto at = [&](Shape shape, Complex from_centre, double angle) {
+    return gap(shape, {wall.centre + from_centre, angle}, wall).value;
+  };
+  CHECK(std::abs(at({2.0, 2.0}, {3.0, 4.0}, 0.0) - 3.0) < 1e-14);
+  CHECK(std::abs(at({2.0, 0.5}, {5.0, 0.0}, 0.0) - 3.0) < 1e-14);
+  CHECK(std::abs(at({0.5, 2.0}, {0.0, -9.0}, 0.0) + 1.0) < 1e-14);
+  CHECK(std::abs(at({2.0, 0.5}, {0.0, 0.0}, 0.7) - 8.0) < 1e-14);
+  // d^2 = (x + a c)^2 + b^2 s^2 across the wall: its maximum for a < b is at c = x a / (b^2 - a^2).
+  const double a = 0.5, b = 3.0, x = 2.0, c = x * a / (b * b - a * a);
+  const double farthest = std::sqrt((x + a * c) * (x + a * c) + b * b * (1.0 - c * c));
+  CHECK(std::abs(at({a, b}, {x, 0.0}, 0.0) - (10.0 - farthest)) < 1e-14);
+  // Nearly equal maxima at both ends, of which the first sample is not the larger.
+  for (double offset : {1e-3, 1e-6, -1e-6, -1e-3}) {
+    const double turn = 0.3;
+    const Complex d = std::polar(offset, turn + 0.01);
+    double largest = 0.0;
+    for (int k = 0; k < 400000; ++k) {
+      const double alpha = 2.0 * pi * k / 400000;
+      const Complex point(2.0 * std::cos(alpha), std::sin(alpha));
+      largest = std::max(largest, std::abs(d + std::polar(1.0, turn) * point));
+    }
+    CHECK(std::abs(at({2.0, 1.0}, d, turn) - (10.0 - largest)) < 1e-9);
+  }
+}
+
 TEST_CASE("bodies centred in the container, on an axis or at a cusp of the evolute are no exception") {
   const Container container{{0.0, 0.0}, 10.0};
   for (const Shape shape : {Shape{2.0, 1.0}, Shape{1.0, 2.0}, Shape{3.0, 0.01}, Shape{1.0, 1.0 - 1e-9}}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "container_gap.hpp"
 #include "gap.hpp"
 #include "packing.hpp"
 
@@ -22,7 +23,7 @@ RandomPlacement ellipses(int count, std::uint64_t seed) {
 double smallest_distance(const Suspension& bodies) {
   double smallest = 1e300;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (&bodies[i] != &bodies.back()) smallest = std::min(smallest, wall_gap(bodies[i], *bodies.container));
+    if (&bodies[i] != &bodies.back()) smallest = std::min(smallest, gap(bodies[i], *bodies.container).value);
     for (std::size_t j = 0; j < i; ++j) smallest = std::min(smallest, gap(bodies[i], bodies[j]).value);
   }
   return smallest;
@@ -50,33 +51,6 @@ double mean_over_specks(RadialDensity density, const Function& f) {
 }
 
 }  // namespace
-
-TEST_CASE("the distance of an ellipse to the wall around it is that of its farthest boundary point") {
-  const Container wall{{0.5, -1.0}, 10.0, 64, {}};
-  const auto at = [&](Shape shape, Complex from_centre, double angle) {
-    return wall_gap({shape, {wall.centre + from_centre, angle}, {}, {}}, wall);
-  };
-  CHECK(std::abs(at({2.0, 2.0}, {3.0, 4.0}, 0.0) - 3.0) < 1e-14);
-  CHECK(std::abs(at({2.0, 0.5}, {5.0, 0.0}, 0.0) - 3.0) < 1e-14);
-  CHECK(std::abs(at({0.5, 2.0}, {0.0, -9.0}, 0.0) + 1.0) < 1e-14);
-  CHECK(std::abs(at({2.0, 0.5}, {0.0, 0.0}, 0.7) - 8.0) < 1e-14);
-  // d^2 = (x + a c)^2 + b^2 s^2 across the wall: its maximum for a < b is at c = x a / (b^2 - a^2).
-  const double a = 0.5, b = 3.0, x = 2.0, c = x * a / (b * b - a * a);
-  const double farthest = std::sqrt((x + a * c) * (x + a * c) + b * b * (1.0 - c * c));
-  CHECK(std::abs(at({a, b}, {x, 0.0}, 0.0) - (10.0 - farthest)) < 1e-14);
-  // Nearly equal maxima at both ends, of which the first sample is not the larger.
-  for (double offset : {1e-3, 1e-6, -1e-6, -1e-3}) {
-    const double turn = 0.3;
-    const Complex d = std::polar(offset, turn + 0.01);
-    double largest = 0.0;
-    for (int k = 0; k < 400000; ++k) {
-      const double alpha = 2.0 * pi * k / 400000;
-      const Complex point(2.0 * std::cos(alpha), std::sin(alpha));
-      largest = std::max(largest, std::abs(d + std::polar(1.0, turn) * point));
-    }
-    CHECK(std::abs(at({2.0, 1.0}, d, turn) - (10.0 - largest)) < 1e-9);
-  }
-}
 
 TEST_CASE("random bodies in an annulus overlap neither each other nor the walls, at the densities of the paper") {
   const std::pair<Shape, int> cases[] = {{{0.375, 0.375}, 80}, {{0.375, 0.125}, 240}, {{0.375, 0.0625}, 320}};

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <random>
 
-#include "completion.hpp"
-#include "stokes_system.hpp"
+#include "average_stress.hpp"
+#include "random_suspension.hpp"
+#include "wall_flows.hpp"
 
 using namespace stokes;
 
 namespace {
-
-double unit_random(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
 Suspension annulus(double inner, double outer, int points) {
   Suspension s;
@@ -25,35 +24,12 @@ std::vector<Complex> points_in_annulus(double inner, double outer, int count) {
   std::mt19937_64 generator(5);
   std::vector<Complex> points;
   for (int k = 0; k < count; ++k) {
-    const double distance = std::pow(10.0, -3.0 + 2.0 * unit_random(generator)) * (outer - inner);
+    const double distance = std::pow(10.0, -3.0 + 2.0 * uniform(generator)) * (outer - inner);
     const double r = k % 3 == 0 ? inner + std::max(distance, 1e-3) : k % 3 == 1 ? outer - std::max(distance, 1e-3)
-                     : inner + (outer - inner) * (0.1 + 0.8 * unit_random(generator));
-    points.push_back(std::polar(r, 2.0 * pi * unit_random(generator)));
+                     : inner + (outer - inner) * (0.1 + 0.8 * uniform(generator));
+    points.push_back(std::polar(r, 2.0 * pi * uniform(generator)));
   }
   return points;
-}
-
-struct FlowErrors {
-  double velocity = 0.0, pressure = 0.0, stress = 0.0;  // largest, relative to the largest value
-};
-
-// Pressures are compared up to a constant, chosen at the first point.
-FlowErrors errors(const std::vector<PointFlow>& flow, const std::vector<PointFlow>& exact) {
-  FlowErrors e;
-  double u = 0.0, p = 0.0, sigma = 0.0;
-  const double constant = flow[0].pressure - exact[0].pressure;
-  for (std::size_t i = 0; i < flow.size(); ++i) {
-    PointFlow shifted = flow[i];
-    shifted.pressure -= constant;
-    const Stress a = stress(shifted), b = stress(exact[i]);
-    e.velocity = std::max(e.velocity, std::abs(flow[i].velocity - exact[i].velocity));
-    e.pressure = std::max(e.pressure, std::abs(shifted.pressure - exact[i].pressure));
-    e.stress = std::max({e.stress, std::abs(a.xx - b.xx), std::abs(a.xy - b.xy), std::abs(a.yy - b.yy)});
-    u = std::max(u, std::abs(exact[i].velocity));
-    p = std::max(p, std::abs(exact[i].pressure));
-    sigma = std::max({sigma, std::abs(b.xx), std::abs(b.xy), std::abs(b.yy)});
-  }
-  return {e.velocity / u, e.pressure / std::max(p, sigma), e.stress / sigma};
 }
 
 }  // namespace
@@ -75,7 +51,7 @@ TEST_CASE("Couette flow between cylinders: velocity, pressure, stress and torque
       exact.push_back({(A + B / r2) * perp(x), 0.0, (A + B / r2) * imaginary_unit + slope * x.real() * perp(x),
                        -(A + B / r2) + slope * x.imag() * perp(x)});
     }
-    const FlowErrors e = errors(system.flow(points, s.density, driving, {}), exact);
+    const WallFlowErrors e = wall_flow_errors(system.flow(points, s.density, driving, {}), exact);
     MESSAGE("inner radius " << inner << ": " << s.iterations << " iterations; u " << e.velocity << " p " << e.pressure
                             << " stress " << e.stress);
     CHECK(e.velocity < 1e-10);
@@ -83,13 +59,10 @@ TEST_CASE("Couette flow between cylinders: velocity, pressure, stress and torque
     CHECK(e.stress < 1e-9);
     CHECK(std::abs(s.reaction[0].torque - 4.0 * pi * B) < 1e-10 * std::abs(4.0 * pi * B));
     // The container's by the traction on it, and by what balances the other torques.
-    const PlacedShape& wall = system.boundaries().back();
-    std::vector<Complex> nodes;
-    for (int k = 0; k < wall.size(); ++k) nodes.push_back(wall.node(k));
-    const std::vector<PointFlow> at_wall = system.flow(nodes, s.density, driving, {});
+    const std::vector<Complex> forces = node_forces(system, 1, s.density, driving, {});
     double torque = 0.0;
-    for (int k = 0; k < wall.size(); ++k)
-      torque += cross(nodes[k], traction(stress(at_wall[k]), wall.shape->weighted_normal(k)));
+    for (std::size_t k = 0; k < forces.size(); ++k)
+      torque += cross(system.boundaries()[1].node(static_cast<int>(k)), forces[k]);
     CHECK(std::abs(torque + 4.0 * pi * B) < 1e-10 * std::abs(4.0 * pi * B));
     CHECK(std::abs(system.container_wrench(s.density, {}).torque - torque) < 1e-9 * std::abs(torque));
   }
@@ -109,7 +82,7 @@ TEST_CASE("source flow through both walls of an annulus is radial and as accurat
     const Complex u = 0.5 * x / r2;
     exact.push_back({u, 0.0, 0.5 / r2 - 2.0 * x.real() / r2 * u, 0.5 * imaginary_unit / r2 - 2.0 * x.imag() / r2 * u});
   }
-  const FlowErrors e = errors(system.flow(points, s.density, driving, {}), exact);
+  const WallFlowErrors e = wall_flow_errors(system.flow(points, s.density, driving, {}), exact);
   MESSAGE(s.iterations << " iterations; u " << e.velocity << " p " << e.pressure << " stress " << e.stress);
   CHECK(e.velocity < 1e-10);
   CHECK(e.pressure < 1e-10);
@@ -142,59 +115,21 @@ TEST_CASE("a disc pulled through the centre of a container moves as in the close
 }
 
 TEST_CASE("a manufactured flow among two inner walls, three ellipses and a container is found to 1e-8") {
-  Suspension bodies;
-  bodies.push_back({{0.6, 0.6}, {{-1.5, 0.5}, 0.2}, 0.0, 0.0, true, {}, 96});
-  bodies.push_back({{0.4, 0.4}, {{1.2, 1.6}, 0.0}, 0.0, 0.0, true, {}, 64});
-  bodies.push_back({{0.5, 0.25}, {{1.3, -0.4}, 0.7}, 0.0, 0.0, true});
-  bodies.push_back({{0.4, 0.2}, {{-0.3, -1.7}, -0.4}, 0.0, 0.0, true});
-  bodies.push_back({{0.3, 0.3}, {{-0.2, 1.9}, 0.0}, 0.0, 0.0, true});
-  bodies.container = Container{0.0, 3.0, 256, {}};
+  const ManufacturedFlow flow{{96, 64, 128, 256}};
   ShapeCache shapes;
-  const StokesSystem system(bodies, 128, shapes, {1e-12, 1000});
+  const StokesSystem system(flow.bodies, 128, shapes, {1e-12, 1000});
+  const StokesSolution s = system.solve_for_velocity(flow.boundary_velocity(system));
 
-  // Stokeslets, rotlets and stresslets in every hole, stresslets beyond the container.
-  const auto exact_flow = [&](Complex x) {
-    PointFlow f;
-    double strength = 1.0;
-    for (const Body& body : bodies) {
-      const Complex place = body.pose.centre + 0.1 * body.shape.b * Complex(1.0, -0.5);
-      const double tiny = 1e-3 * body.shape.b;  // a small disc: its completion flow has a force and a torque
-      f += completion_flow({tiny, tiny}, {place, 0.0}, {strength * Complex(1.0, 0.4), 0.7 * strength}, x);
-      f += stresslet_flow(x - place, Complex(0.3, strength), Complex(-0.5, 0.2));
-      strength = -0.8 * strength;
-    }
-    f += stresslet_flow(x - Complex(3.5, 1.5), {2.0, 1.0}, {1.0, -0.5});
-    f += stresslet_flow(x - Complex(-2.0, -3.2), {1.0, -1.0}, {0.5, 2.0});
-    return f;
-  };
-  ComplexVector data(system.node_count());
-  for (const PlacedShape& b : system.boundaries())
-    for (int k = 0; k < b.size(); ++k) data[b.offset + k] = exact_flow(b.node(k)).velocity;
-  const StokesSolution s = system.solve_for_velocity(data);
-
-  std::mt19937_64 generator(9);
   std::vector<Complex> points{{0.0, 0.0}};
-  for (const PlacedShape& b : system.boundaries())
-    for (const double distance : {1e-3, 1e-2, 0.1, 0.3})
-      for (int k = 0; k < 6; ++k) {
-        const double alpha = 2.0 * pi * unit_random(generator);
-        const Shape& shape = b.shape->shape;
-        const Complex on(shape.a * std::cos(alpha), shape.b * std::sin(alpha));
-        Complex out(shape.b * std::cos(alpha), shape.a * std::sin(alpha));
-        out /= std::abs(out);
-        if (b.shape->kind == BoundaryKind::container) out = -out;
-        points.push_back(b.pose.centre + b.axis * (on + distance * out));
-      }
+  for (const double distance : {1e-3, 1e-2, 0.1, 0.3})
+    for (const Complex x : flow.points_beside(distance, 6)) points.push_back(x);
   std::vector<PointFlow> exact;
-  for (const Complex x : points) exact.push_back(exact_flow(x));
-  const FlowErrors e = errors(system.flow(points, s.density, {}, {}), exact);
+  for (const Complex x : points) exact.push_back(flow.at(x));
+  const WallFlowErrors e = wall_flow_errors(system.flow(points, s.density, {}, {}), exact);
   MESSAGE(s.iterations << " iterations; u " << e.velocity << " p " << e.pressure << " stress " << e.stress);
   CHECK(e.velocity < 1e-8);
   CHECK(e.pressure < 1e-8);
   CHECK(e.stress < 1e-8);
-  double strength = 1.0;  // the forces are those inside
-  for (std::size_t j = 0; j < bodies.size(); ++j) {
-    CHECK(std::abs(s.reaction[j].force - strength * Complex(1.0, 0.4)) < 1e-8);
-    strength = -0.8 * strength;
-  }
+  for (std::size_t j = 0; j < flow.bodies.size(); ++j)  // the forces are those inside
+    CHECK(std::abs(s.reaction[j].force - flow.force(j)) < 1e-8);
 }
