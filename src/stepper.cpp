@@ -19,8 +19,9 @@ constexpr int stiv_increments_after = 8;
 // Densities that the next one is extrapolated from: quadratic, which on Taylor-Green flow saves twice as many
 // iterations as starting from the previous one.
 constexpr std::size_t extrapolation_points = 3;
-// Of LcpMatrix::near: what the bodies that are left out contribute is no less.
-constexpr double column_tolerance = 1e-3;
+// Of LcpMatrix::near: the mobility across a small gap is 1e-3 and less of what each of the two flows in it is alone.
+constexpr double column_tolerance = 1e-6;
+constexpr int nearby_iterations = 8;
 constexpr double finest = 4.0;  // largest fineness of clusters
 
 // A density on other nodes, boundary by boundary.
@@ -156,19 +157,34 @@ Response Stepper::respond_alone(const Configuration& now, const std::vector<Wren
   return response;
 }
 
+ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix) {
+  const ResponseFunction full = [this, &now](const auto& w, const auto& guess) {
+    return respond(now, w, guess, now.data_norm);
+  };
+  const MobilityFunction column = [this, &now](const auto& w) { return respond_to_contact(now, w); };
+  const MobilityFunction nearby = [this, &now](const auto& w) { return respond_nearby(now, w); };
+  const MobilityFunction alone = [this, &now](const auto& w) { return respond_alone(now, w); };
+  if (options_.coupling == Coupling::local) return {alone, {}, {}};
+  if (matrix == LcpMatrix::full) return {column, {}, {}};
+  if (matrix == LcpMatrix::self) return {alone, full, {}};
+  return {nearby, full,
+          {memory_.multipliers, memory_.multipliers.empty() ? ComplexVector() : moved(memory_.contact, now.nodes)}};
+}
+
 NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp) {
-  const ResponseFunction full = [&](const auto& w, const auto& guess) { return respond(now, w, guess, now.data_norm); };
-  const MobilityFunction column = [&](const std::vector<Wrench>& w) { return respond_to_contact(now, w); };
-  const MobilityFunction nearby = [&](const std::vector<Wrench>& w) { return respond_nearby(now, w); };
-  const MobilityFunction alone = [&](const std::vector<Wrench>& w) { return respond_alone(now, w); };
-  ContactMobility mobility{column, {}, {}};
-  if (options_.coupling == Coupling::local)
-    mobility = {alone, {}, {}};
-  else if (options_.lcp_matrix == LcpMatrix::self)
-    mobility = {alone, full, {}};
-  else if (options_.lcp_matrix == LcpMatrix::near)
-    mobility = {nearby, full, {memory_.multipliers, {}}};
-  if (!mobility.earlier.multipliers.empty()) mobility.earlier.density = moved(memory_.contact, now.nodes);
+  if (options_.lcp_matrix != LcpMatrix::near) return resolve(now, dt, ncp, options_.lcp_matrix);
+  NcpOptions at_first = ncp;
+  at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
+  NcpResult result = resolve(now, dt, at_first, LcpMatrix::near);
+  if (result.solved || result.unresolved) return result;
+  const int spent = result.iterations;
+  result = resolve(now, dt, ncp, LcpMatrix::full);
+  result.iterations += spent;
+  return result;
+}
+
+NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix) {
+  const ContactMobility mobility = contact_mobility(now, matrix);
   const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
     NcpOptions options = ncp;
     if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;

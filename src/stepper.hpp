@@ -28,7 +28,7 @@ enum class Coupling {
 enum class LcpMatrix {
   full,  // the one that moves the bodies: a Stokes solve for each contact
   near,  // the bodies around each contact as if there were no others; every iterate is then moved with the full
-         // mobility: one Stokes solve for each iteration
+         // mobility: one Stokes solve for each iteration. Where that does not converge, as full
   self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
          // Coupling::local
 };
@@ -129,6 +129,8 @@ class Stepper {
   Response respond_to_contact(Configuration& now, const std::vector<Wrench>& wrenches);
   Response respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
+  ContactMobility contact_mobility(Configuration& now, LcpMatrix matrix);
+  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix);
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
   void remember(Configuration& now, ComplexVector total, const std::vector<ActiveContact>& contacts);
   void turn_walls(double way);
