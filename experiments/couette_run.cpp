@@ -15,10 +15,9 @@ namespace {
 using namespace stokes;
 
 std::vector<CouetteCase> all_cases() {
-  constexpr int seeds = 9;
   std::vector<CouetteCase> cases;
   for (const CouetteSuspension& s : couette_suspensions)
-    for (int seed = 1; seed <= seeds; ++seed) cases.push_back({s, seed, ""});
+    for (int seed = 1; seed <= couette_seeds; ++seed) cases.push_back({s, seed, ""});
   for (const char* variant : {"stiv", "halfstep", "points64", "quick"}) cases.push_back({{5, 3, 80}, 1, variant});
   return cases;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -63,6 +64,15 @@ class Results {
  private:
   std::filesystem::path folder_;
 };
+
+// The value of a published number in reference_data/<experiment>.csv; NaN if there is none.
+inline double published_value(const std::string& experiment, const std::string& case_name, const std::string& quantity) {
+  const Table table = read_csv(std::filesystem::path("reference_data") / (experiment + ".csv"));
+  for (int row = 0; row < static_cast<int>(table.rows.size()); ++row)
+    if (table.text(row, table.column("case")) == case_name && table.text(row, table.column("quantity")) == quantity)
+      return table.finite_number(row, table.column("value"));
+  return std::nan("");
+}
 
 struct Experiment {
   std::string name;

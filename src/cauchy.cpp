@@ -1,6 +1,7 @@
 #include "cauchy.hpp"
 
 #include <limits>
+#include <numeric>
 
 #include "fourier.hpp"
 
@@ -126,17 +127,24 @@ VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const
 }
 
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {
+  std::vector<int> nodes(curve.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return trapezoid_rows(curve, side, z, nodes);
+}
+
+VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z, const std::vector<int>& nodes) {
   const double s = side == Side::interior ? 1.0 : -1.0;
-  const int n = curve.size(), targets = static_cast<int>(z.size());
+  const auto n = static_cast<Eigen::Index>(nodes.size()), targets = static_cast<Eigen::Index>(z.size());
   VelocityRows rows{Matrix(targets, n), ComplexMatrix(targets, n)};
-  for (int i = 0; i < targets; ++i)
-    for (int k = 0; k < n; ++k) {
+  for (Eigen::Index i = 0; i < targets; ++i)
+    for (Eigen::Index c = 0; c < n; ++c) {
       // (1/pi)(r.n)(r.eta) r/|r|^4 w  with  (r.eta) r = (|r|^2 eta + r^2 conj(eta))/2
+      const int k = nodes[c];
       const Complex r = z[i] - curve.position[k];
       const Complex normal = -imaginary_unit * s * curve.tangent[k];
       const double rr = std::norm(r), f = curve.weight[k] * dot(r, normal) / (2.0 * pi * rr);
-      rows.direct(i, k) = f;
-      rows.conjugate(i, k) = f * r * r / rr;
+      rows.direct(i, c) = f;
+      rows.conjugate(i, c) = f * r * r / rr;
     }
   return rows;
 }

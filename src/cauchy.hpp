@@ -49,6 +49,8 @@ class CloseEvaluation {
 
 // Rows of the plain trapezoid rule at the same targets: what the fast sums compute.
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z);
+// The same for some of the nodes.
+VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z, const std::vector<int>& nodes);
 
 // The curve at `upsampling` times as many nodes, its own among them.
 Curve refined(const Curve& curve, int upsampling);

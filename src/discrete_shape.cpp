@@ -67,6 +67,26 @@ DiscreteShape::DiscreteShape(const Shape& shape_, const Discretisation& nodes_, 
   const double s = side() == Side::interior ? 1.0 : -1.0;
   diagonal = -s * curve.curvature.cwiseProduct(curve.weight) / (2.0 * pi);
 
+  const Matrix block = own_block();
+  if (!is_circle()) {
+    inverse_ = block.partialPivLu().inverse();
+    return;
+  }
+  motions_.resize(2 * n, 4);
+  for (int k = 0; k < n; ++k) {
+    const Complex out = curve.position[k] / shape.a;
+    motions_.row(2 * k) << 1.0, 0.0, out.real(), -out.imag();
+    motions_.row(2 * k + 1) << 0.0, 1.0, out.imag(), out.real();
+  }
+  // W^T W = N: with block = -1/2 + W C W^T / N the inverse is W ((C - 1/2)^-1 + 2) W^T / N - 2.
+  const Eigen::Matrix4d C = motions_.transpose() * (block * motions_) / n + 0.5 * Eigen::Matrix4d::Identity();
+  core_ = ((C - 0.5 * Eigen::Matrix4d::Identity()).inverse() + 2.0 * Eigen::Matrix4d::Identity()) / n;
+}
+
+// The boundary's own part of the operator (BoundaryKind).
+Matrix DiscreteShape::own_block() const {
+  const int n = size();
+  const Matrix B = rigid_motions(curve);
   const std::vector<Complex> positions(curve.position.begin(), curve.position.end());
   VelocityRows self = trapezoid_rows(curve, side(), positions);
   for (int k = 0; k < n; ++k) {  // t (t . eta) = (eta + t^2 conj(eta)) / 2
@@ -94,7 +114,7 @@ DiscreteShape::DiscreteShape(const Shape& shape_, const Discretisation& nodes_, 
     }
     block -= 0.5 / curve.length() * normal * flux.transpose();
   }
-  inverse = block.partialPivLu().inverse();
+  return block;
 }
 
 VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z) const {

@@ -45,11 +45,13 @@ enum class BoundaryKind {
 class DiscreteShape {
  public:
   // A container must be a disc. log_length: the length that divides distances in the logarithm of Stokeslets.
-  // Cost O(N^3).
+  // Cost O(N^3), for circles with nodes at equal steps O(N^2).
   DiscreteShape(const Shape& shape, const Discretisation& nodes, BoundaryKind kind, double log_length,
                 NearSingular near_singular);
 
   int size() const { return curve.size(); }
+  // With nodes at equal steps.
+  bool is_circle() const { return shape.a == shape.b && nodes.clusters.empty(); }
   Side side() const { return kind == BoundaryKind::container ? Side::interior : Side::exterior; }
   // Weight times normal out of the fluid at a node, body frame.
   Complex weighted_normal(int k) const {
@@ -59,6 +61,13 @@ class DiscreteShape {
   // Rigid part of a density: the motion whose quadrature-weighted moments it shares,
   // (U, omega) = G^-1 B_w^T eta.
   RigidVelocity rigid_part(const Complex* density) const;
+
+  // Solution of the boundary's own block for right-hand sides in the columns of b, 2N reals each.
+  template <class Rhs>
+  Matrix solve_own(const Rhs& b) const {
+    if (inverse_.size() > 0) return inverse_ * b;
+    return motions_ * (core_ * (motions_.transpose() * b)) - 2.0 * b;
+  }
 
   // Force and torque of a fixed boundary on the fluid, body frame.
   Wrench wrench(const Complex* density) const;
@@ -80,10 +89,16 @@ class DiscreteShape {
   Curve curve;
   Eigen::Matrix<double, 3, Eigen::Dynamic> moments;  // G^-1 B_w^T, 3 x 2N
   Vector diagonal;   // limit -s kappa w/(2 pi) of the double layer at a node itself, factor of t (t . eta)
-  Matrix inverse;    // of the boundary's own block, 2N x 2N
   Eigen::Matrix<double, 3, Eigen::Dynamic> closure;  // beta B_w^T, 3 x 2N
 
  private:
+  Matrix own_block() const;
+
+  // Of the block's inverse: the matrix, or on a circle, where the block is -1/2 plus a map of the motions
+  // e1, e2, n, t to themselves, W core W^T - 2 with these motions W at the nodes.
+  Matrix inverse_;
+  Eigen::Matrix<double, Eigen::Dynamic, 4> motions_;
+  Eigen::Matrix4d core_;
   std::variant<CloseEvaluation, CircleEvaluation, InterpolationEvaluation> close_;
 };
 

@@ -1,10 +1,34 @@
 #include "preconditioner.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 
 #include "threads.hpp"
 
 namespace stokes {
+
+namespace {
+
+// Of a circle so many times larger a body sees a part.
+constexpr double large_circle = 4.0;
+
+std::vector<int> all_nodes(const PlacedShape& b) {
+  std::vector<int> nodes(b.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
+}
+
+// Within a body's length of its circumscribed circle.
+std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) {
+  const double reach = 3.0 * body.shape->shape.circumradius();
+  std::vector<int> nodes;
+  for (int k = 0; k < wall.size(); ++k)
+    if (std::norm(wall.node(k) - body.pose.centre) < reach * reach) nodes.push_back(k);
+  return nodes;
+}
+
+}  // namespace
 
 Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                                const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block)
@@ -12,16 +36,27 @@ Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<Placed
   if (kind != PreconditionerKind::pair) return;
   pairs_.resize(pairs.size());
   const long nodes = boundaries.empty() ? 0 : boundaries.back().offset + boundaries.back().size();
-  parallel_for_large(static_cast<long>(pairs.size()), nodes, [&](long n) {
-    Pair& p = pairs_[n];
-    p.i = pairs[n].first, p.j = pairs[n].second;
-    if (boundaries[p.j].size() < boundaries[p.i].size()) std::swap(p.i, p.j);
-    p.X.noalias() = boundaries[p.i].shape->inverse * block(p.i, p.j);
-    p.Y.noalias() = boundaries[p.j].shape->inverse * block(p.j, p.i);
-    Matrix schur = -p.X * p.Y;
-    schur.diagonal().array() += 1.0;
-    p.schur.compute(schur);
-  });
+  parallel_for_large(static_cast<long>(pairs.size()), nodes, [&](long n) { pairs_[n] = prepared(pairs[n], block); });
+}
+
+Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const BlockFunction& block) const {
+  Pair p;
+  std::tie(p.i, p.j) = members;
+  if (boundaries_[p.j].size() < boundaries_[p.i].size()) std::swap(p.i, p.j);
+  const PlacedShape &i = boundaries_[p.i], &j = boundaries_[p.j];
+  const bool in_part = j.shape->is_circle() && j.shape->shape.a > large_circle * i.shape->shape.circumradius();
+  p.part = in_part ? nodes_beside(i, j) : all_nodes(j);
+  const std::vector<int> own = all_nodes(i);
+  p.X = i.shape->solve_own(block(p.i, own, p.j, p.part));
+  p.Y = block(p.j, p.part, p.i, own);
+  if (in_part)
+    p.Y *= -2.0;  // the inverse of a circle's block but for a few smooth modes
+  else
+    p.Y = j.shape->solve_own(p.Y);
+  Matrix schur = -p.X * p.Y;
+  schur.diagonal().array() += 1.0;
+  p.schur.compute(schur);
+  return p;
 }
 
 void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out) const {
@@ -33,7 +68,7 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
   parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long n) {
     const int i = set.members[n];
     const Eigen::Index first = 2 * set.first[i], count = 2 * boundaries_[i].size();
-    own.segment(first, count).noalias() = boundaries_[i].shape->inverse * in.segment(first, count);
+    own.segment(first, count) = boundaries_[i].shape->solve_own(in.segment(first, count));
   });
   out = own;
   std::vector<const Pair*> pairs;
@@ -45,15 +80,19 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
     changes[n] = change(*pairs[n], set, own);
   });
   for (std::size_t n = 0; n < pairs.size(); ++n) {
-    out.segment(2 * set.first[pairs[n]->i], changes[n].first.size()) += changes[n].first;
-    out.segment(2 * set.first[pairs[n]->j], changes[n].second.size()) += changes[n].second;
+    const Pair& p = *pairs[n];
+    out.segment(2 * set.first[p.i], changes[n].first.size()) += changes[n].first;
+    for (std::size_t k = 0; k < p.part.size(); ++k)
+      out.segment<2>(2 * (set.first[p.j] + p.part[k])) += changes[n].second.segment<2>(2 * static_cast<Eigen::Index>(k));
   }
 }
 
-// What solving a pair together adds to the solutions `own` of its members by themselves.
+// What solving a pair together adds to the solutions `own` of its members by themselves; of j at its nodes that take part.
 std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const BoundarySet& set, const Vector& own) const {
   const auto d_i = own.segment(2 * set.first[p.i], 2 * boundaries_[p.i].size());
-  const auto d_j = own.segment(2 * set.first[p.j], 2 * boundaries_[p.j].size());
+  Vector d_j(2 * static_cast<Eigen::Index>(p.part.size()));
+  for (std::size_t k = 0; k < p.part.size(); ++k)
+    d_j.segment<2>(2 * static_cast<Eigen::Index>(k)) = own.segment<2>(2 * (set.first[p.j] + p.part[k]));
   const Vector z_i = p.schur.solve(d_i - p.X * d_j);
   return {z_i - d_i, -p.Y * z_i};
 }

@@ -19,11 +19,11 @@ enum class PreconditionerKind {
 
 class Preconditioner {
  public:
-  // The operator's block (target, source), densities in their frames: 2 N_target x 2 N_source.
-  using BlockFunction = std::function<Matrix(int target, int source)>;
+  // The operator's block between nodes of two boundaries, densities in their frames: 2 rows x 2 columns.
+  using BlockFunction = std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
-  // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Cost per pair O(N_i N_j^2 + N_i^3),
-  // N_i the smaller number of nodes.
+  // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Of a large circle only the nodes beside
+  // the other member take part. Cost per pair O(N_i N_j^2 + N_i^3), N_i the smaller number of nodes.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
 
@@ -36,10 +36,12 @@ class Preconditioner {
   // z_i = (I - X Y)^-1 (d_i - X d_j), z_j = d_j - Y z_i.
   struct Pair {
     int i, j;
+    std::vector<int> part;  // nodes of j that take part
     Matrix X, Y;
     Eigen::PartialPivLU<Matrix> schur;
   };
 
+  Pair prepared(std::pair<int, int> members, const BlockFunction& block) const;
   std::pair<Vector, Vector> change(const Pair& pair, const BoundarySet& set, const Vector& own) const;
 
   PreconditionerKind kind_;

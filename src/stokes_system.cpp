@@ -37,7 +37,9 @@ StokesSystem::StokesSystem(const Suspension& bodies, const std::vector<Discretis
   const bool pairs = options.preconditioner == PreconditionerKind::pair;
   preconditioner_.emplace(options.preconditioner, boundaries_,
                           pairs ? close_pairs(bodies) : std::vector<std::pair<int, int>>{},
-                          [this](int target, int source) { return interaction(target, source); });
+                          [this](int target, const auto& rows, int source, const auto& columns) {
+                            return interaction(target, rows, source, columns);
+                          });
 }
 
 bool StokesSystem::has_container() const {
@@ -158,20 +160,27 @@ std::vector<std::pair<int, int>> StokesSystem::close_pairs(const Suspension& bod
   return pairs;
 }
 
-// The operator's block between two boundaries: the double layer, accurate at any distance, and a fixed source's
-// completion flows.
-Matrix StokesSystem::interaction(int target, int source) const {
+// The operator's block between nodes of two boundaries: the double layer, accurate at any distance, and a fixed
+// source's completion flows.
+Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const {
   const PlacedShape &t = boundaries_[target], &s = boundaries_[source];
   std::vector<Complex> z;
-  for (int k = 0; k < t.size(); ++k) z.push_back(s.local(t.node(k)));
-  Matrix block = real_matrix(trapezoid_rows(s.shape->curve, s.shape->side(), z), s.axis * std::conj(t.axis));
-  for (int n = first_near_[target]; n < first_near_[target + 1]; ++n)
-    if (near_[n].source == source)
-      for (std::size_t r = 0; r < near_[n].rows.size(); ++r)
-        block.middleRows(2 * near_[n].rows[r], 2) += near_[n].matrix.middleRows(2 * static_cast<Eigen::Index>(r), 2);
+  for (const int k : rows) z.push_back(s.local(t.node(k)));
+  Matrix block = real_matrix(trapezoid_rows(s.shape->curve, s.shape->side(), z, columns), s.axis * std::conj(t.axis));
+  const auto add = [&](Eigen::Index r, const auto& whole_row) {
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      block.block<2, 2>(2 * r, 2 * static_cast<Eigen::Index>(c)) += whole_row.middleCols(2 * columns[c], 2);
+  };
+  for (int n = first_near_[target]; n < first_near_[target + 1]; ++n) {
+    if (near_[n].source != source) continue;
+    for (std::size_t k = 0; k < near_[n].rows.size(); ++k)
+      if (const auto r = std::lower_bound(rows.begin(), rows.end(), near_[n].rows[k]); r != rows.end() && *r == near_[n].rows[k])
+        add(r - rows.begin(), near_[n].matrix.middleRows(2 * static_cast<Eigen::Index>(k), 2));
+  }
   if (s.shape->kind == BoundaryKind::fixed) {
     const auto f = std::lower_bound(fixed_.begin(), fixed_.end(), source) - fixed_.begin();
-    block += completion_.block(2 * t.offset, 3 * f, 2 * t.size(), 3) * s.shape->closure;
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      add(static_cast<Eigen::Index>(r), completion_.block(2 * (t.offset + rows[r]), 3 * f, 2, 3) * s.shape->closure);
   }
   return block;
 }

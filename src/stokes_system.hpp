@@ -123,7 +123,7 @@ class StokesSystem {
   void find_near_blocks();
   void find_completion_columns();
   std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;
-  Matrix interaction(int target, int source) const;
+  Matrix interaction(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const;
   BoundarySet around(const std::vector<Wrench>& wrenches) const;
 
   ComplexVector in_laboratory(const BoundarySet& set, const Complex* density) const;

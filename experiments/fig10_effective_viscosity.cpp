@@ -1,0 +1,79 @@
+// Figure 10: the effective viscosity over two revolutions, as it comes and smoothed, for every run of couette_run that is
+// there; and what the text says of it. A spike is what a step's value exceeds the smoothed one by.
+
+#include "couette.hpp"
+#include "smoothing.hpp"
+
+namespace {
+
+using namespace stokes;
+
+constexpr int levels = 4;
+
+struct Spikes {
+  double in_contact = 0.0, without = 0.0;
+};
+
+// Of a run, its first tenth of a revolution apart, where the start relaxes.
+Spikes write_series(const std::string& name, const Results& runs, const Results& results) {
+  const Table series = read_csv(runs.path(name + "_series"));
+  std::vector<double> time = series.numbers("revolutions"), raw = series.numbers("effective_viscosity");
+  const std::vector<double> contacts = series.numbers("contacts");
+  time.pop_back(), raw.pop_back();  // the end, which no step starts from
+  const std::vector<double> smooth = smoothed(raw, levels);
+  std::vector<std::vector<double>> rows;
+  Spikes spikes;
+  for (std::size_t k = 0; k < raw.size(); ++k) {
+    rows.push_back({time[k], raw[k], smooth[k], contacts[k]});
+    double& largest = contacts[k] > 0.0 ? spikes.in_contact : spikes.without;
+    if (time[k] > 0.1) largest = std::max(largest, std::abs(raw[k] - smooth[k]));
+  }
+  results.write(name, {"revolutions", "raw", "smoothed", "contacts"}, rows);
+  return spikes;
+}
+
+void collect(const Results& results) {
+  const Results runs = couette_results(results);
+  Spikes largest;
+  std::vector<std::vector<double>> rows;
+  double imbalance = 0.0;
+  for (const CouetteSuspension& s : couette_suspensions)
+    for (const std::string& name : finished_runs(runs, s)) {
+      const Spikes spikes = write_series(name, runs, results);
+      largest.in_contact = std::max(largest.in_contact, spikes.in_contact);
+      largest.without = std::max(largest.without, spikes.without);
+      imbalance = std::max(imbalance, runs.quantity(name, "torque_imbalance"));
+    }
+  const std::string stiv = CouetteCase{{5, 3, 80}, 1, "stiv"}.name(), gap = CouetteCase{{5, 3, 80}, 1, ""}.name();
+  if (runs.has(stiv) && runs.has(gap)) {
+    const Spikes unbalanced = write_series(stiv, runs, results), balanced = write_series(gap, runs, results);
+    results.write("contact_models", {{"largest_spike_stiv", unbalanced.in_contact},
+                                     {"largest_spike_gap", balanced.in_contact},
+                                     {"torque_imbalance_stiv", runs.quantity(stiv, "torque_imbalance")}});
+  }
+  if (largest.in_contact == 0.0) return;
+  Quantities row = {{"largest_spike_in_contact", largest.in_contact},
+                    {"largest_spike_without", largest.without},
+                    {"largest_torque_imbalance", imbalance}};
+  const auto mean = [&](int percent, int lambda) {
+    return over_seeds(runs, {percent, lambda, 0}, "effective_viscosity").mean;
+  };
+  const auto note = [&row](const std::string& name, double value) {
+    if (!std::isnan(value)) row.push_back({name, value});
+  };
+  for (const int lambda : {1, 3, 6}) {
+    note(concat("rise_5_to_10_lambda", lambda), mean(10, lambda) - mean(5, lambda));
+    note(concat("rise_10_to_15_lambda", lambda), mean(15, lambda) - mean(10, lambda));
+  }
+  for (const int percent : {5, 10, 15}) {
+    note(concat("fall_1_to_3_phi", percent), mean(percent, 1) - mean(percent, 3));
+    note(concat("fall_3_to_6_phi", percent), mean(percent, 3) - mean(percent, 6));
+  }
+  results.write("claims", row);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_experiment({"fig10_effective_viscosity", {}, {}, collect}, argc, argv);
+}
