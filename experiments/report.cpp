@@ -1,0 +1,319 @@
+// Writes the numbers and tables of the report as LaTeX, from results and reference values alone.
+//
+//   report [results=DIR] [reference=DIR] [document=FILE] [errata=FILE] [missing=fail|allow]
+//
+// The document asks for a number by \result{EXPERIMENT/CASE}{COLUMN}{FORMAT}: the first row of results/EXPERIMENT/CASE.csv,
+// or the row that a selection names, as in table[phi=5,lambda=3]; FORMAT is that of tex_number; for a published value by
+// \published{ID}, the id of a row of the reference values. Their definitions go to results/report/values.tex, the tables
+// to files beside it. Exit status: 0; 1 for results that are missing or older than what they are made from, unless
+// missing=allow, which writes \missing{} in their place; 2 for wrong input.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "csv.hpp"
+#include "tex.hpp"
+
+namespace {
+
+using namespace stokes;
+namespace fs = std::filesystem;
+
+const std::string missing_mark = "\\missing{}";
+
+// Files that an experiment makes from those of its cases.
+bool is_collected(const fs::path& file) {
+  const std::string name = file.stem().string();
+  for (const char* start : {"table", "summary", "differences", "displacement"})
+    if (name.starts_with(start)) return true;
+  return false;
+}
+
+std::vector<fs::path> csv_files(const fs::path& folder) {
+  std::vector<fs::path> files;
+  if (fs::is_directory(folder))
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".csv") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> folders(const fs::path& root) {
+  std::vector<fs::path> found;
+  for (const auto& entry : fs::directory_iterator(root))
+    if (entry.is_directory()) found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// What the report is made from; everything that is not there or out of date is told in `problems`.
+class Inputs {
+ public:
+  Inputs(fs::path results, const fs::path& reference) : results_(std::move(results)) {
+    for (const fs::path& file : csv_files(reference)) reference_.push_back(read_csv(file));
+    if (reference_.empty()) throw InputError(concat("no reference values in ", quote(reference.string())));
+  }
+
+  const fs::path& results() const { return results_; }
+  const std::set<std::string>& problems() const { return problems_; }
+  void problem(const std::string& text) { problems_.insert(text); }
+
+  // A table of the results by its name without .csv; nothing if it is missing.
+  const Table* table(const std::string& name) {
+    const auto known = tables_.find(name);
+    if (known != tables_.end()) return known->second ? &*known->second : nullptr;
+    const fs::path file = results_ / (name + ".csv");
+    auto& slot = tables_[name];
+    if (!fs::exists(file)) {
+      problem(concat("no ", file.string()));
+      return nullptr;
+    }
+    if (is_collected(file))
+      for (const fs::path& other : csv_files(file.parent_path()))
+        if (!is_collected(other) && fs::last_write_time(other) > fs::last_write_time(file))
+          problem(concat(file.string(), " is older than ", other.string()));
+    slot = read_csv(file);
+    return &*slot;
+  }
+
+  std::optional<double> number(const std::string& file, const std::string& column) {
+    const std::size_t bracket = std::min(file.find('['), file.size());
+    const Table* found = table(file.substr(0, bracket));
+    if (!found) return std::nullopt;
+    for (int row = 0; row < static_cast<int>(found->rows.size()); ++row)
+      if (selected(*found, row, file.substr(bracket))) return found->number(row, found->column(column));
+    problem(concat("no row ", file.substr(bracket), " in ", found->file));
+    return std::nullopt;
+  }
+
+  std::string tex(const std::string& file, const std::string& column, const std::string& format) {
+    const std::optional<double> value = number(file, column);
+    return value ? tex_number(*value, format) : missing_mark;
+  }
+
+  // The value of the reference row with this id.
+  std::string published(const std::string& id) const {
+    for (const Table& t : reference_)
+      for (int row = 0; row < static_cast<int>(t.rows.size()); ++row)
+        if (t.text(row, t.column("id")) == id) return t.text(row, t.column("value"));
+    throw InputError(concat("no reference value with the id ", quote(id)));
+  }
+
+ private:
+  // By [column=number,...]; everything when it is empty.
+  static bool selected(const Table& t, int row, std::string_view selection) {
+    if (selection.empty()) return true;
+    if (selection.back() != ']') throw InputError(concat("a row is named like [phi=5,lambda=3], not ", quote(selection)));
+    for (const std::string_view condition : split(selection.substr(1, selection.size() - 2), ',')) {
+      const std::size_t equals = condition.find('=');
+      const auto value = equals == std::string_view::npos ? std::nullopt : parse_number(condition.substr(equals + 1));
+      if (!value) throw InputError(concat("a row is named like [phi=5,lambda=3], not ", quote(selection)));
+      if (t.number(row, t.column(condition.substr(0, equals))) != *value) return false;
+    }
+    return true;
+  }
+
+  fs::path results_;
+  std::vector<Table> reference_;
+  std::map<std::string, std::optional<Table>> tables_;
+  std::set<std::string> problems_;
+};
+
+// --- the parts of the report ----------------------------------------------------------------------------
+
+std::string row_of(const std::vector<std::string>& cells) { return join(cells, " & ") + " \\\\\n"; }
+
+std::string values(Inputs& inputs, const std::string& document) {
+  std::string text;
+  for (const auto& r : requests_in(document, "result", 3))
+    text += concat("\\expandafter\\def\\csname result/", r[0], "/", r[1], "/", r[2], "\\endcsname{", inputs.tex(r[0], r[1], r[2]), "}\n");
+  for (const auto& r : requests_in(document, "published", 1))
+    text += concat("\\expandafter\\def\\csname published/", r[0], "\\endcsname{$", inputs.published(r[0]), "$}\n");
+  return text;
+}
+
+// For each experiment: rows of the verdict by status, published values apart from exact ones and earlier results.
+std::string verdict_table(Inputs& inputs) {
+  const std::vector<std::string> statuses = {"PASS", "KNOWN", "FAIL", "MISSING"};
+  std::map<std::string, std::vector<int>> counts;
+  std::vector<int> total(8);
+  const Table* verdict = inputs.table("verdict");
+  if (!verdict) return row_of({missing_mark});
+  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
+    const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
+    const auto status = std::find(statuses.begin(), statuses.end(), text("verdict")) - statuses.begin();
+    if (status == 4) throw InputError(concat(verdict->where(row), ": unknown verdict"));
+    if (text("verdict") == "MISSING") inputs.problem(concat("no result ", text("experiment"), "/", text("case"), " ", text("quantity")));
+    std::vector<int>& count = counts[text("experiment")];
+    count.resize(8);
+    const auto column = status + (text("source").starts_with("paper_") ? 0 : 4);
+    ++count[column], ++total[column];
+  }
+  std::string table;
+  const auto add = [&](const std::string& name, const std::vector<int>& numbers) {
+    std::vector<std::string> cells = {name};
+    for (const int n : numbers) cells.push_back(n ? format_number(n) : "");
+    table += row_of(cells);
+  };
+  for (const auto& [experiment, count] : counts) add(concat("\\texttt{", tex_text(experiment), "}"), count);
+  table += "\\midrule\n";
+  add("all", total);
+  return table;
+}
+
+// Rows of the verdict with this status: KNOWN ones once for each note, the others one by one.
+std::string verdict_rows(Inputs& inputs, const std::string& status) {
+  const Table* verdict = inputs.table("verdict");
+  if (!verdict) return row_of({missing_mark});
+  std::map<std::pair<std::string, std::string>, int> groups;
+  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
+    const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
+    if (text("verdict") != status) continue;
+    const std::string note = status == "KNOWN" ? text("note").substr(6)
+                                               : concat(text("case"), ", ", text("quantity"), ": ", text("got"), ", expected ", text("expected"));
+    ++groups[{text("experiment"), std::string(trim(note))}];
+  }
+  std::string table;
+  for (const auto& [group, count] : groups)
+    table += row_of({concat("\\texttt{", tex_text(group.first), "}"), format_number(count), tex_prose(group.second)});
+  return table.empty() ? row_of({"none", "", ""}) : table;
+}
+
+// Four lines for each separation: published, and by three models of contact.
+std::string table1(Inputs& inputs) {
+  const std::vector<std::string> steps = {"0.04", "0.02", "0.01", "0.005", "0.0025"};
+  const std::vector<std::pair<std::string, std::string>> models = {{"", "exact gap"}, {"_stiv", "volumes, 128 vertices"}, {"_stiv32", "volumes, 32 vertices"}};
+  std::string table;
+  for (const char* separation : {"0", "1", "2", "2.25", "2.5", "2.75", "3"}) {
+    std::vector<std::string> line = {concat("$", separation, "h$"), "published"};
+    for (const std::string& step : steps) line.push_back(inputs.published(concat("t1-", separation, "h-", step)));
+    table += concat(separation == std::string("0") ? "" : "\\addlinespace\n", row_of(line));
+    for (const auto& [suffix, model] : models) {
+      if (!suffix.empty() && *parse_number(separation) < 2.0) continue;  // no contact there
+      line = {"", model};
+      for (const std::string& step : steps)
+        line.push_back(inputs.tex(concat("table1_reversibility/delta", separation, "h_dt", step, suffix), "reversal_error", "4f"));
+      table += row_of(line);
+    }
+  }
+  return table;
+}
+
+// Published mean, and mean and range over the seeds, of the suspensions between cylinders.
+std::string couette_table(Inputs& inputs, const std::string& name, bool order_parameter) {
+  const Table* t = inputs.table(name + "/table");
+  if (!t) return row_of({missing_mark});
+  std::string table;
+  for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
+    const auto number = [&](const char* column) { return t->number(row, t->column(column)); };
+    const double lambda = number("lambda"), published = number("published");
+    const bool inside = number("minimum") <= published && published <= number("maximum");
+    std::vector<std::string> cells = {concat(number("phi"), "\\,\\%"), format_number(lambda), tex_number(published, "2f"), tex_number(number("mean"), "3f"),
+                                      concat(tex_number(number("minimum"), "3f"), " to ", tex_number(number("maximum"), "3f")),
+                                      format_number(number("seeds")), inside ? "yes" : "no"};
+    if (order_parameter) cells.push_back(tex_number((lambda - 1.0) / (lambda + 1.0), "3f"));
+    table += row_of(cells);
+  }
+  return table;
+}
+
+std::string timing_table(Inputs& inputs) {
+  std::string table;
+  for (const fs::path& folder : folders(inputs.results()))
+    for (const fs::path& file : csv_files(folder)) {
+      const std::string stem = file.stem().string(), experiment = folder.filename().string();
+      if (!stem.ends_with("_timing")) continue;
+      const std::string name = stem.substr(0, stem.size() - 7);
+      const Table* run = inputs.table(concat(experiment, "/", name));
+      table += row_of({concat("\\texttt{", tex_text(experiment), "}"), tex_text(name),
+                       run && run->has_column("steps") ? tex_number(run->number(0, run->column("steps")), "0f") : "",
+                       inputs.tex(concat(experiment, "/", stem), "seconds", "0f")});
+    }
+  if (table.empty()) inputs.problem("no timings in the results");
+  return table.empty() ? row_of({missing_mark}) : table;
+}
+
+// Rows of the first table of a Markdown file.
+std::string errata(const std::string& markdown) {
+  std::string table;
+  int lines = 0;
+  for (const std::string_view line : split(markdown, '\n')) {
+    if (!line.starts_with("|") || ++lines <= 2) continue;  // header, rule
+    std::vector<std::string> cells;
+    const std::string_view inner = trim(line);
+    for (const std::string_view cell : split(inner.substr(1, inner.size() - 2), '|')) cells.push_back(tex_prose(trim(cell)));
+    table += row_of(cells);
+  }
+  if (table.empty()) throw InputError("no table of errata");
+  return table;
+}
+
+std::string provenance(Inputs& inputs) {
+  const Table* t = inputs.table("fig2_shear_separation/delta0h");
+  return concat("\\newcommand{\\version}{", t ? tex_text(t->comment("version")) : missing_mark, "}\n\\newcommand{\\compiler}{",
+                t ? tex_text(t->comment("compiler")) : missing_mark, "}\n");
+}
+
+void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
+  const fs::path verdict = inputs.results() / "verdict.csv";
+  if (!fs::exists(verdict)) return;  // told when it is read
+  std::vector<fs::path> files = csv_files(reference);
+  for (const fs::path& folder : folders(inputs.results()))
+    for (const fs::path& file : csv_files(folder)) files.push_back(file);
+  for (const fs::path& file : files)
+    if (fs::last_write_time(file) > fs::last_write_time(verdict)) inputs.problem(concat(verdict.string(), " is older than ", file.string()));
+}
+
+int run(int argc, char** argv) {
+  std::map<std::string, std::string> options = {{"results", "results"}, {"reference", "reference_data"}, {"document", "paper/report.tex"},
+                                                {"errata", "paper/ERRATA.md"}, {"missing", "fail"}};
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t equals = argument.find('=');
+    const auto option = options.find(argument.substr(0, equals));
+    if (equals == std::string::npos || option == options.end())
+      throw InputError(concat("unknown argument ", quote(argument),
+                              "; usage: report [results=DIR] [reference=DIR] [document=FILE] [errata=FILE] [missing=fail|allow]"));
+    option->second = argument.substr(equals + 1);
+  }
+  if (options["missing"] != "fail" && options["missing"] != "allow")
+    throw InputError(concat("missing = fail or allow, not ", quote(options["missing"])));
+  if (!fs::is_directory(options["results"])) throw InputError(concat("no results in ", quote(options["results"])));
+
+  Inputs inputs(options["results"], options["reference"]);
+  require_fresh_verdict(inputs, options["reference"]);
+  const std::string document = read_text_file(options["document"], "the report");
+  const std::map<std::string, std::string> parts = {
+      {"values", provenance(inputs) + values(inputs, document)},
+      {"verdict", verdict_table(inputs)},
+      {"known", verdict_rows(inputs, "KNOWN")},
+      {"failed", verdict_rows(inputs, "FAIL")},
+      {"table1", table1(inputs)},
+      {"table2", couette_table(inputs, "table2_order_parameter", true)},
+      {"table3", couette_table(inputs, "table3_effective_viscosity", false)},
+      {"timing", timing_table(inputs)},
+      {"errata", errata(read_text_file(options["errata"], "the list of errata"))}};
+  std::size_t told = 0;
+  for (const std::string& problem : inputs.problems())
+    if (++told <= 10) std::fprintf(stderr, "report: %s\n", problem.c_str());
+  if (told > 10) std::fprintf(stderr, "report: and %zu more\n", told - 10);
+  if (!inputs.problems().empty() && options["missing"] == "fail") return 1;
+  fs::create_directories(inputs.results() / "report");
+  for (const auto& [name, text] : parts) write_file_atomically(inputs.results() / "report" / (name + ".tex"), text);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "report: %s\n", error.what());
+    return 2;
+  }
+}
