@@ -85,8 +85,8 @@ class Inputs {
     const Table* found = table(file.substr(0, bracket));
     if (!found) return std::nullopt;
     for (int row = 0; row < static_cast<int>(found->rows.size()); ++row)
-      if (selected(*found, row, file.substr(bracket))) return found->number(row, found->column(column));
-    problem(concat("no row ", file.substr(bracket), " in ", found->file));
+      if (found->has_column(column) && selected(*found, row, file.substr(bracket))) return found->number(row, found->column(column));
+    problem(concat("no ", column, file.substr(bracket), " in ", found->file));
     return std::nullopt;
   }
 
@@ -95,12 +95,13 @@ class Inputs {
     return value ? tex_number(*value, format) : missing_mark;
   }
 
-  // The value of the reference row with this id.
-  std::string published(const std::string& id) const {
+  // The value of the reference row with this id, as it is written there.
+  std::string published(const std::string& id) {
     for (const Table& t : reference_)
       for (int row = 0; row < static_cast<int>(t.rows.size()); ++row)
         if (t.text(row, t.column("id")) == id) return t.text(row, t.column("value"));
-    throw InputError(concat("no reference value with the id ", quote(id)));
+    problem(concat("no reference value with the id ", quote(id)));
+    return missing_mark;
   }
 
  private:
@@ -132,7 +133,7 @@ std::string values(Inputs& inputs, const std::string& document) {
   for (const auto& r : requests_in(document, "result", 3))
     text += concat("\\expandafter\\def\\csname result/", r[0], "/", r[1], "/", r[2], "\\endcsname{", inputs.tex(r[0], r[1], r[2]), "}\n");
   for (const auto& r : requests_in(document, "published", 1))
-    text += concat("\\expandafter\\def\\csname published/", r[0], "\\endcsname{$", inputs.published(r[0]), "$}\n");
+    text += concat("\\expandafter\\def\\csname published/", r[0], "\\endcsname{", inputs.published(r[0]), "}\n");
   return text;
 }
 
@@ -189,7 +190,7 @@ std::string table1(Inputs& inputs) {
   const std::vector<std::pair<std::string, std::string>> models = {{"", "exact gap"}, {"_stiv", "volumes, 128 vertices"}, {"_stiv32", "volumes, 32 vertices"}};
   std::string table;
   for (const char* separation : {"0", "1", "2", "2.25", "2.5", "2.75", "3"}) {
-    std::vector<std::string> line = {concat("$", separation, "h$"), "published"};
+    std::vector<std::string> line = {separation == std::string("0") ? "0" : concat("$", separation, "h$"), "published"};
     for (const std::string& step : steps) line.push_back(inputs.published(concat("t1-", separation, "h-", step)));
     table += concat(separation == std::string("0") ? "" : "\\addlinespace\n", row_of(line));
     for (const auto& [suffix, model] : models) {

@@ -29,13 +29,14 @@ inline std::string tex_text(std::string_view text) {
   return result;
 }
 
-// A sentence of a Markdown file or of a note: Greek letters spelled out, powers like rho^4 and `code` become LaTeX.
+// A sentence of a Markdown file or of a note: Greek letters spelled out, powers like rho^4, indices like sigma_S, quotes
+// and `code` become LaTeX.
 inline std::string tex_prose(std::string_view text) {
   static const std::map<std::string, std::string, std::less<>> symbols = {
       {"eta", "\\eta"},       {"pi", "\\pi"},       {"rho", "\\rho"},     {"nu", "\\nu"},       {"kappa", "\\kappa"},
       {"lambda", "\\lambda"}, {"gamma", "\\gamma"}, {"sigma", "\\sigma"}, {"delta", "\\delta"}, {"Int", "\\int"}};
   std::string result;
-  bool code = false;
+  bool code = false, quoted = false;
   for (std::size_t i = 0; i < text.size();) {
     std::size_t end = i;
     const auto letter = [&](std::size_t k) { return k < text.size() && std::isalpha(static_cast<unsigned char>(text[k])); };
@@ -48,6 +49,13 @@ inline std::string tex_prose(std::string_view text) {
     } else if (text[i] == '^' && digit(i + 1)) {
       for (end = i + 1; digit(end);) ++end;
       result += concat("$^{", text.substr(i + 1, end - i - 1), "}$");
+    } else if (!code && text[i] == '_' && letter(i + 1) && !letter(i + 2)) {
+      result += concat("$_{", text[i + 1], "}$");
+      end = i + 2;
+    } else if (!code && text[i] == '"') {
+      result += quoted ? "''" : "``";
+      quoted = !quoted;
+      end = i + 1;
     } else if (text[i] == '`') {
       result += code ? "}" : "\\texttt{";
       code = !code;

@@ -23,7 +23,7 @@ set yrange [-1.2:2.4]
 set xtics 4
 set ytics 1
 set xlabel "x" offset 0,0.8
-set ylabel "y" offset 1.5,0
+set ylabel "y" offset 0.5,0
 set key top right
 plot folder . "delta0h_trajectory.csv" using "left_x":"left_y" with lines linewidth 1.5 linecolor rgb marked_colour title "no contact forces", \
      "" using (column("time") == 0 ? column("left_x") : NaN):(column("left_y")):(0.5) with circles linecolor rgb marked_colour notitle, \

@@ -24,7 +24,7 @@ set xtics 4
 set ytics 0.1
 set format y "%.1f"
 set xlabel "x of the left disc" offset 0,0.5
-set ylabel "y" offset 1.5,0
+set ylabel "y" offset 0.5,0
 set key top right
 plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k) title "from y = " . height_of[k]
 

@@ -1,9 +1,9 @@
 # Figure 8: initial configurations between the cylinders.
 width = 17; height = 4.6
 load "paper/figures/style.gp"
+inner_radius = 5
 load "paper/figures/annulus.gp"
 columns = 4; rows = 1
-set object 2 circle at 0,0 size 5 fillstyle empty border rgb wall_colour linewidth 1.2
 unset key
 array phi[4] = [5, 5, 10, 10]
 array lambda[4] = [3, 6, 3, 6]
