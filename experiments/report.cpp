@@ -10,119 +10,13 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <set>
 
-#include "csv.hpp"
-#include "tex.hpp"
+#include "report_inputs.hpp"
 
 namespace {
 
 using namespace stokes;
 namespace fs = std::filesystem;
-
-const std::string missing_mark = "\\missing{}";
-
-// Files that an experiment makes from those of its cases.
-bool is_collected(const fs::path& file) {
-  const std::string name = file.stem().string();
-  for (const char* start : {"table", "summary", "differences", "displacement"})
-    if (name.starts_with(start)) return true;
-  return false;
-}
-
-std::vector<fs::path> csv_files(const fs::path& folder) {
-  std::vector<fs::path> files;
-  if (fs::is_directory(folder))
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".csv") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<fs::path> folders(const fs::path& root) {
-  std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(root))
-    if (entry.is_directory()) found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
-// What the report is made from; everything that is not there or out of date is told in `problems`.
-class Inputs {
- public:
-  Inputs(fs::path results, const fs::path& reference) : results_(std::move(results)) {
-    for (const fs::path& file : csv_files(reference)) reference_.push_back(read_csv(file));
-    if (reference_.empty()) throw InputError(concat("no reference values in ", quote(reference.string())));
-  }
-
-  const fs::path& results() const { return results_; }
-  const std::set<std::string>& problems() const { return problems_; }
-  void problem(const std::string& text) { problems_.insert(text); }
-
-  // A table of the results by its name without .csv; nothing if it is missing.
-  const Table* table(const std::string& name) {
-    const auto known = tables_.find(name);
-    if (known != tables_.end()) return known->second ? &*known->second : nullptr;
-    const fs::path file = results_ / (name + ".csv");
-    auto& slot = tables_[name];
-    if (!fs::exists(file)) {
-      problem(concat("no ", file.string()));
-      return nullptr;
-    }
-    if (is_collected(file))
-      for (const fs::path& other : csv_files(file.parent_path()))
-        if (!is_collected(other) && fs::last_write_time(other) > fs::last_write_time(file))
-          problem(concat(file.string(), " is older than ", other.string()));
-    slot = read_csv(file);
-    return &*slot;
-  }
-
-  std::optional<double> number(const std::string& file, const std::string& column) {
-    const std::size_t bracket = std::min(file.find('['), file.size());
-    const Table* found = table(file.substr(0, bracket));
-    if (!found) return std::nullopt;
-    for (int row = 0; row < static_cast<int>(found->rows.size()); ++row)
-      if (found->has_column(column) && selected(*found, row, file.substr(bracket))) return found->number(row, found->column(column));
-    problem(concat("no ", column, file.substr(bracket), " in ", found->file));
-    return std::nullopt;
-  }
-
-  std::string tex(const std::string& file, const std::string& column, const std::string& format) {
-    const std::optional<double> value = number(file, column);
-    return value ? tex_number(*value, format) : missing_mark;
-  }
-
-  // The value of the reference row with this id, as it is written there.
-  std::string published(const std::string& id) {
-    for (const Table& t : reference_)
-      for (int row = 0; row < static_cast<int>(t.rows.size()); ++row)
-        if (t.text(row, t.column("id")) == id) return t.text(row, t.column("value"));
-    problem(concat("no reference value with the id ", quote(id)));
-    return missing_mark;
-  }
-
- private:
-  // By [column=number,...]; everything when it is empty.
-  static bool selected(const Table& t, int row, std::string_view selection) {
-    if (selection.empty()) return true;
-    if (selection.back() != ']') throw InputError(concat("a row is named like [phi=5,lambda=3], not ", quote(selection)));
-    for (const std::string_view condition : split(selection.substr(1, selection.size() - 2), ',')) {
-      const std::size_t equals = condition.find('=');
-      const auto value = equals == std::string_view::npos ? std::nullopt : parse_number(condition.substr(equals + 1));
-      if (!value) throw InputError(concat("a row is named like [phi=5,lambda=3], not ", quote(selection)));
-      if (t.number(row, t.column(condition.substr(0, equals))) != *value) return false;
-    }
-    return true;
-  }
-
-  fs::path results_;
-  std::vector<Table> reference_;
-  std::map<std::string, std::optional<Table>> tables_;
-  std::set<std::string> problems_;
-};
 
 // --- the parts of the report ----------------------------------------------------------------------------
 
@@ -208,6 +102,7 @@ std::string table1(Inputs& inputs) {
 std::string couette_table(Inputs& inputs, const std::string& name, bool order_parameter) {
   const Table* t = inputs.table(name + "/table");
   if (!t) return row_of({missing_mark});
+  inputs.require_not_older(inputs.results() / name / "table.csv", inputs.results() / "couette_run");
   std::string table;
   for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
     const auto number = [&](const char* column) { return t->number(row, t->column(column)); };
@@ -262,11 +157,8 @@ std::string provenance(Inputs& inputs) {
 void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
   const fs::path verdict = inputs.results() / "verdict.csv";
   if (!fs::exists(verdict)) return;  // told when it is read
-  std::vector<fs::path> files = csv_files(reference);
-  for (const fs::path& folder : folders(inputs.results()))
-    for (const fs::path& file : csv_files(folder)) files.push_back(file);
-  for (const fs::path& file : files)
-    if (fs::last_write_time(file) > fs::last_write_time(verdict)) inputs.problem(concat(verdict.string(), " is older than ", file.string()));
+  inputs.require_not_older(verdict, reference);
+  for (const fs::path& folder : folders(inputs.results())) inputs.require_not_older(verdict, folder);
 }
 
 int run(int argc, char** argv) {
