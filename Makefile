@@ -161,6 +161,7 @@ verify: $(BUILD)/verify
 figures:
 	@$(MAKE) -k --no-print-directory -f paper/Makefile figures
 paper: $(BUILD)/verify $(BUILD)/report
+	@rm -f $(RESULTS)/report/report.pdf
 	@$(MAKE) -k --no-print-directory -f paper/Makefile paper
 movies: $(BUILD)/simulate
 	@$(MAKE) --no-print-directory -f paper/Makefile movies

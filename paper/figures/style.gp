@@ -1,9 +1,10 @@
-# The common look of the figures. Set on the command line: kind (pdf or png), output_file, results, reference; by a
+# The common look of the figures. Set on the command line: kind (pdf, png or gif), output_file, results, reference; by a
 # script before it loads this file: width, height in cm. Column width is 8.5.
 
 look = 'enhanced color rounded font "DejaVu Sans Condensed,7"'
 if (kind eq "pdf") { eval sprintf('set terminal pdfcairo %s fontscale 0.85 linewidth 0.7 size %gcm,%gcm', look, width, height) }
 if (kind eq "png") { eval sprintf('set terminal pngcairo %s fontscale 2.4 pointscale 2.4 linewidth 1.8 size %d,%d', look, 79*width, 79*height) }
+if (kind eq "gif") { set terminal gif animate delay 6 loop 0 size 480,480 font "DejaVu Sans Condensed,12" }
 set output output_file
 set encoding utf8
 
