@@ -24,7 +24,8 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize clean FORCE
+.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize clean \
+        FORCE
 .SECONDARY:
 
 help:
@@ -55,7 +56,8 @@ missing  = for h in $(HEADERS); do echo "\#include <$$h>" | $(CXX) -std=c++20 -x
 # $(call install,packages,what they are)
 install  = if command -v apt-get >/dev/null; then \
              root=; [ "$$(id -u)" = 0 ] || root=sudo; \
-             $$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $(1); \
+             $$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive \
+               apt-get install -q -y --no-install-recommends $(1); \
            else echo 'Please install $(2).' >&2; exit 1; fi
 deps:
 	@if ! command -v $(CXX) >/dev/null || [ -n "$$($(missing))" ]; then \

@@ -10,7 +10,9 @@ disc_at(t) = abs(column("time") - t) < 1e-6 && column("radius") < 0.4 ? column("
 set object 2 circle at 0,0 size inner_radius fillstyle empty border rgb wall_colour linewidth 1.2
 
 # Panels of a multiplot from the top left, `columns` by `rows`; k counts from 1.
-panel(k) = sprintf("set lmargin at screen %g; set rmargin at screen %g; set tmargin at screen %g; set bmargin at screen %g", \
-                   column_of(k) / columns + 0.005, (column_of(k) + 1) / columns - 0.005, 1 - row_of(k) / rows - 0.005, 1 - (row_of(k) + 1) / rows + 0.005)
+panel(k) = sprintf("set lmargin at screen %g; set rmargin at screen %g; ", \
+                   column_of(k) / columns + 0.005, (column_of(k) + 1) / columns - 0.005) . \
+           sprintf("set tmargin at screen %g; set bmargin at screen %g", \
+                   1 - row_of(k) / rows - 0.005, 1 - (row_of(k) + 1) / rows + 0.005)
 column_of(k) = 1.0 * ((k - 1) % columns)
 row_of(k) = 1.0 * ((k - 1) / columns)

@@ -40,7 +40,8 @@ set label "n" at wall_x(t0) - 0.62, wall_y(t0) + 0.3 right
 set arrow from 0.9 * cos(3.6), -1.7 + 0.9 * sin(3.6) to 0.35 * cos(3.6), -1.7 + 0.35 * sin(3.6) arrowstyle 1 front
 set label "n" at -0.55, -1.75 center front
 t1 = 1.9
-set arrow from ellipse_x(x2, theta2, t1), ellipse_y(y2, theta2, t1) to ellipse_x(x2, theta2, t1) - 0.15, ellipse_y(y2, theta2, t1) - 0.42 arrowstyle 1 front
+set arrow from ellipse_x(x2, theta2, t1), ellipse_y(y2, theta2, t1) \
+         to ellipse_x(x2, theta2, t1) - 0.15, ellipse_y(y2, theta2, t1) - 0.42 arrowstyle 1 front
 set label "n" at ellipse_x(x2, theta2, t1) + 0.02, ellipse_y(y2, theta2, t1) - 0.22 left front
 
 set label at x1, y1 point pointtype 7 pointsize 0.25 front

@@ -26,8 +26,14 @@ do for [k = 1:3] {
   set format y k == 1 ? "%.1f" : ""
   set label 1 sprintf("λ = %d", lambda) at graph 0.04, 0.94
   fractions = lambda == 6 ? "5 10" : "5 10 15"
-  plot for [phi in fractions] run(int(phi), lambda) using "revolutions":"raw" with lines linewidth 0.5 linecolor rgb faint(int(phi), lambda) notitle, \
-       for [phi in fractions] run(int(phi), lambda) using "revolutions":"smoothed" with lines linewidth 1.6 linecolor rgb colour(int(phi), lambda) title "φ = " . phi . " %", \
-       for [phi in fractions] results . "/table3_effective_viscosity/table.csv" using (mean(int(phi), lambda)):"published":(0.5) with xerrorbars pointtype 6 pointsize 0.5 linewidth 0.7 linecolor rgb published title (phi eq "5" ? "published mean" : "")
+  plot for [phi in fractions] run(int(phi), lambda) \
+           using "revolutions":"raw" with lines linewidth 0.5 linecolor rgb faint(int(phi), lambda) notitle, \
+       for [phi in fractions] run(int(phi), lambda) \
+                using "revolutions":"smoothed" \
+                with lines linewidth 1.6 linecolor rgb colour(int(phi), lambda) title "φ = " . phi . " %", \
+       for [phi in fractions] results . "/table3_effective_viscosity/table.csv" \
+                using (mean(int(phi), lambda)):"published":(0.5) \
+                with xerrorbars pointtype 6 pointsize 0.5 linewidth 0.7 linecolor rgb published \
+                title (phi eq "5" ? "published mean" : "")
 }
 unset multiplot

@@ -25,9 +25,12 @@ set ytics 1
 set xlabel "x" offset 0,0.8
 set ylabel "y" offset 0.5,0
 set key top right
-plot folder . "delta0h_trajectory.csv" using "left_x":"left_y" with lines linewidth 1.5 linecolor rgb marked_colour title "no contact forces", \
-     "" using (column("time") == 0 ? column("left_x") : NaN):(column("left_y")):(0.5) with circles linecolor rgb marked_colour notitle, \
-     "" using (column("time") == 0 ? column("right_x") : NaN):(column("right_y")):(0.5) with circles linecolor rgb body_colour notitle
+plot folder . "delta0h_trajectory.csv" \
+         using "left_x":"left_y" with lines linewidth 1.5 linecolor rgb marked_colour title "no contact forces", \
+     "" using (column("time") == 0 ? column("left_x") : NaN):(column("left_y")):(0.5) \
+              with circles linecolor rgb marked_colour notitle, \
+     "" using (column("time") == 0 ? column("right_x") : NaN):(column("right_y")):(0.5) \
+              with circles linecolor rgb body_colour notitle
 
 set size noratio
 set tmargin at screen 0.67
@@ -40,7 +43,10 @@ set format y "%.1f"
 set xlabel "x of the left disc" offset 0,0.3
 set ylabel "y_{left} − y_{right}" offset 0.5,0
 set key top left samplen 0.6 Left reverse font ",6"
-plot for [k = 1:5] folder . "delta" . separation[k] . "h_trajectory.csv" using "left_x":"difference_y" with lines linewidth 1.4 linecolor rgb delta_colour[k] title "δ = " . separation[k] . (separation[k] eq "0" ? "" : "h")
+plot for [k = 1:5] folder . "delta" . separation[k] . "h_trajectory.csv" \
+         using "left_x":"difference_y" \
+         with lines linewidth 1.4 linecolor rgb delta_colour[k] \
+         title "δ = " . separation[k] . (separation[k] eq "0" ? "" : "h")
 
 set lmargin at screen 0.68
 set rmargin at screen 0.98
@@ -52,6 +58,10 @@ set format y "%.2f"
 set xlabel "δ/h"
 set ylabel "displacement" offset 0.8,0
 set key top left font ",7"
-plot $ends using "separation_over_h":"displacement" with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \
-     reference . "/fig2_shear_separation.csv" using (case_of("displacement", "delta", "h")):(read_off("displacement")) with points pointtype 6 pointsize 0.5 linecolor rgb published title "published"
+plot $ends \
+         using "separation_over_h":"displacement" \
+         with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \
+     reference . "/fig2_shear_separation.csv" \
+              using (case_of("displacement", "delta", "h")):(read_off("displacement")) \
+              with points pointtype 6 pointsize 0.5 linecolor rgb published title "published"
 unset multiplot

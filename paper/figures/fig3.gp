@@ -26,7 +26,8 @@ set format y "%.1f"
 set xlabel "x of the left disc" offset 0,0.5
 set ylabel "y" offset 0.5,0
 set key top right
-plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k) title "from y = " . height_of[k]
+plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" \
+         using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k) title "from y = " . height_of[k]
 
 set tmargin at screen 0.48
 set bmargin at screen 0.12
@@ -38,8 +39,10 @@ set ytics 0.02
 set format y "%.2f"
 set ylabel "y" offset 1,0
 unset key
-plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" using "free_left_x":"free_left_y" with lines dashtype 2 linecolor rgb colour_of(k), \
-     for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k)
+plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" \
+         using "free_left_x":"free_left_y" with lines dashtype 2 linecolor rgb colour_of(k), \
+     for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" \
+              using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k)
 
 set lmargin at screen 0.70
 set rmargin at screen 0.98
@@ -52,6 +55,10 @@ set format x "%.3f"
 set xlabel "y at the start"
 set ylabel "y at the end" offset 0.5,0
 set key top left Left reverse samplen 1
-plot $ends using "start_y":"end_y" with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \
-     reference . "/fig3_pathlines.csv" using (case_of("end_y", "y", "")):(read_off("end_y")) with points pointtype 6 pointsize 0.5 linecolor rgb published title "published"
+plot $ends \
+         using "start_y":"end_y" \
+         with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \
+     reference . "/fig3_pathlines.csv" \
+              using (case_of("end_y", "y", "")):(read_off("end_y")) \
+              with points pointtype 6 pointsize 0.5 linecolor rgb published title "published"
 unset multiplot

@@ -5,6 +5,7 @@ load "paper/figures/style.gp"
 folder = results . "/fig4_taylor_green/"
 a = 0.475; b = 0.1
 colour_of(marked, contact) = marked == 1 ? marked_colour : contact == 1 ? contact_colour : body_colour
+at(t) = abs(column("time") - t) < 0.02 ? column("x") : NaN
 array time_step[3] = ["0.025", "0.0125", "0.00625"]
 set multiplot
 
@@ -21,7 +22,9 @@ do for [k = 1:3] {
   set bmargin at screen bottom[k] + 0.01
   set tmargin at screen bottom[k] + 0.49
   set label 1 sprintf("t = %d", t) at graph 0.03, 0.95
-  plot folder . "dt0.025_snapshots.csv" using (abs(column("time") - t) < 0.02 ? column("x") : NaN):"y":(2*a):(2*b):(column("theta") * degrees):(colour_of(column("coloured"), column("in_contact"))) with ellipses linecolor rgb variable notitle
+  plot folder . "dt0.025_snapshots.csv" \
+           using (at(t)):"y":(2*a):(2*b):(column("theta") * degrees):(colour_of(column("coloured"), column("in_contact"))) \
+           with ellipses linecolor rgb variable notitle
 }
 
 unset label 1
@@ -36,6 +39,9 @@ set bmargin at screen 0.085
 set tmargin at screen 0.49
 set autoscale
 set key top left
-plot for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" using "x":"y" with lines linewidth 1 linecolor rgb step_colour[k] title "Δt = " . time_step[k], \
-     for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" using (column("in_contact") == 1 ? column("x") : NaN):"y" with points pointtype 7 pointsize 0.2 linecolor rgb step_colour[k] notitle
+plot for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" \
+         using "x":"y" with lines linewidth 1 linecolor rgb step_colour[k] title "Δt = " . time_step[k], \
+     for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" \
+              using (column("in_contact") == 1 ? column("x") : NaN):"y" \
+              with points pointtype 7 pointsize 0.2 linecolor rgb step_colour[k] notitle
 unset multiplot

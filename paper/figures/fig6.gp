@@ -16,10 +16,13 @@ do for [k = 1:5] {
   t = 2 * (k - 1)
   eval panel(k)
   set label 1 sprintf("t = %d", t) at graph 0.02, 0.96
-  plot file using (disc_at(t)):"y":"radius":(colour_of(column("fixed"), column("in_contact"))) with circles linecolor rgb variable
+  plot file \
+           using (disc_at(t)):"y":"radius":(colour_of(column("fixed"), column("in_contact"))) \
+           with circles linecolor rgb variable
 }
 eval panel(6)
 set label 1 "t = 0 and t = 8"
 plot file using (disc_at(0)):"y":"radius":(colour_of(column("fixed"), 0)) with circles linecolor rgb variable, \
-     file using (column("fixed") == 1 ? NaN : disc_at(8)):"y":"radius" with circles fillstyle empty border linecolor rgb "black"
+     file using (column("fixed") == 1 ? NaN : disc_at(8)):"y":"radius" \
+              with circles fillstyle empty border linecolor rgb "black"
 unset multiplot

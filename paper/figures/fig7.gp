@@ -28,7 +28,10 @@ do for [k = 1:6] {
     set cblabel "log_{10} |σ_{xy}|" offset 0,0.9
     set cbtics 1 offset 0,0.4
   }
-  plot in_view(sprintf("%s/fig7_shear_stress/seed1_t%s.csv", results, times[k])) using "x":"y":(column("inside") == 1 ? NaN : column("log10_abs_sigma_xy")) with image, \
-       results . "/fig6_injection/seed1_snapshots.csv" using (disc_at(real(times[k]))):"y":"radius" with circles fillcolor rgb "white" fillstyle solid 1 border rgb "#444444" linewidth 0.4
+  plot in_view(sprintf("%s/fig7_shear_stress/seed1_t%s.csv", results, times[k])) \
+           using "x":"y":(column("inside") == 1 ? NaN : column("log10_abs_sigma_xy")) with image, \
+       results . "/fig6_injection/seed1_snapshots.csv" \
+                using (disc_at(real(times[k]))):"y":"radius" \
+                with circles fillcolor rgb "white" fillstyle solid 1 border rgb "#444444" linewidth 0.4
 }
 unset multiplot

@@ -24,8 +24,16 @@ do for [lambda in "3 6"] {
   set format x lambda == 3 ? "" : "%g"
   set label 1 sprintf("λ = %d", lambda) at graph 0.03, 0.93
   fractions = lambda == 3 ? "5 10 15" : "5 10"
-  plot for [phi in fractions] for [seed in seeds(int(phi), lambda)] steps(int(phi), lambda, seed) using "revolutions":"order_parameter" with lines linewidth (seed eq "1" ? 1.6 : 0.5) linecolor rgb colour(int(phi), lambda) title (seed eq "1" ? "φ = " . phi . " %" : ""), \
-       results . "/fig9_order_parameter/single_body.csv" using "revolutions":sprintf("lambda%d", lambda) with lines dashtype 2 linewidth 1 linecolor rgb "#666666" title "no interaction", \
-       for [phi in fractions] results . "/table2_order_parameter/table.csv" using (mean(int(phi), lambda)):"published":(0.5) with xerrorbars pointtype 6 pointsize 0.5 linewidth 0.7 linecolor rgb published title (phi eq "5" ? "published mean" : "")
+  plot for [phi in fractions] for [seed in seeds(int(phi), lambda)] steps(int(phi), lambda, seed) \
+           using "revolutions":"order_parameter" \
+           with lines linewidth (seed eq "1" ? 1.6 : 0.5) linecolor rgb colour(int(phi), lambda) \
+           title (seed eq "1" ? "φ = " . phi . " %" : ""), \
+       results . "/fig9_order_parameter/single_body.csv" \
+                using "revolutions":sprintf("lambda%d", lambda) \
+                with lines dashtype 2 linewidth 1 linecolor rgb "#666666" title "no interaction", \
+       for [phi in fractions] results . "/table2_order_parameter/table.csv" \
+                using (mean(int(phi), lambda)):"published":(0.5) \
+                with xerrorbars pointtype 6 pointsize 0.5 linewidth 0.7 linecolor rgb published \
+                title (phi eq "5" ? "published mean" : "")
 }
 unset multiplot

@@ -14,10 +14,11 @@ frames = int(row_records / count)
 array a[count]
 array b[count]
 stats bodies using (a[int(column(0)) + 1] = column("a"), b[int(column(0)) + 1] = column("b")) nooutput name "given"
-# By the body's number, from 0. The inner wall is the last body of the trajectory and no body of the file.
-is_given(k) = k < given_records
-length(k) = is_given(k) ? 2 * a[k + 1] : 0
-breadth(k) = is_given(k) ? 2 * b[k + 1] : 0
+# The inner wall is the last body of the trajectory and no body of the file.
+x_of(body) = body < given_records ? column("x") : NaN
+length(body) = body < given_records ? 2 * a[int(body) + 1] : 0
+breadth(body) = body < given_records ? 2 * b[int(body) + 1] : 0
+colour(force_x, force_y) = force_x**2 + force_y**2 > 0 ? contact_colour : body_colour
 
 set xrange [-half:half]
 set yrange [-half:half]
@@ -25,5 +26,7 @@ do for [k = 1:words(walls)] {
   set object k circle at 0,0 size real(word(walls, k)) fillstyle empty border rgb wall_colour linewidth 1.2
 }
 do for [frame = 0:frames - 1] {
-  plot trajectory every ::(frame * count)::((frame + 1) * count - 1) using (is_given(int(column("body"))) ? column("x") : NaN):"y":(length(int(column("body")))):(breadth(int(column("body")))):(column("theta") * degrees):(column("fx")**2 + column("fy")**2 > 0 ? contact_colour : body_colour) with ellipses linecolor rgb variable
+  plot trajectory every ::(frame * count)::((frame + 1) * count - 1) \
+           using (x_of(column("body"))):"y":(length(column("body"))):(breadth(column("body"))):(column("theta") * degrees) \
+                 :(colour(column("fx"), column("fy"))) with ellipses linecolor rgb variable
 }
