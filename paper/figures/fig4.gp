@@ -10,8 +10,8 @@ array time_step[3] = ["0.025", "0.0125", "0.00625"]
 set multiplot
 
 set size ratio -1
-set xrange [-3.4:3.4]
-set yrange [-3.4:3.4]
+set xrange [-2.7:2.7]
+set yrange [-2.7:2.7]
 @no_axes
 array left[3] = [0.01, 0.51, 0.01]
 array bottom[3] = [0.5, 0.5, 0.0]
@@ -29,16 +29,17 @@ do for [k = 1:3] {
 
 unset label 1
 set border
-set xtics 0.5
-set ytics 0.5
+set xtics 1 nomirror
+set ytics 1 nomirror
 set xlabel "x" offset 0,0.8
-set ylabel "y" offset 1.8,0
+set ylabel "y" offset 0.3,0
 set lmargin at screen 0.60
 set rmargin at screen 0.985
 set bmargin at screen 0.085
 set tmargin at screen 0.49
-set autoscale
-set key top left
+set xrange [-1.7:1.7]
+set yrange [-1.7:1.7]
+set key center samplen 1
 plot for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" \
          using "x":"y" with lines linewidth 1 linecolor rgb step_colour[k] title "Δt = " . time_step[k], \
      for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" \
