@@ -10,8 +10,8 @@ set ylabel "order parameter S" offset 2,0
 set lmargin at screen 0.12
 set rmargin at screen 0.97
 set key bottom right maxrows 3 samplen 1
-steps(phi, lambda, seed) = sprintf("%s/couette_run/phi%d_lambda%d_seed%s_steps.csv", results, phi, lambda, seed)
-seeds(phi, lambda) = system(sprintf("ls %s | sed 's/.*seed//; s/_steps.csv//'", steps(phi, lambda, "*")))
+series(phi, lambda, seed) = sprintf("%s/couette_run/phi%d_lambda%d_seed%s_series.csv", results, phi, lambda, seed)
+seeds(phi, lambda) = system(sprintf("ls %s | sed 's/.*seed//; s/_series.csv//'", series(phi, lambda, "[0-9]")))
 colour(phi, lambda) = tint(lambda_colour(lambda), phi)
 mean(phi, lambda) = column("phi") == phi && column("lambda") == lambda ? 1.5 : NaN
 
@@ -24,7 +24,7 @@ do for [lambda in "3 6"] {
   set format x lambda == 3 ? "" : "%g"
   set label 1 sprintf("λ = %d", lambda) at graph 0.03, 0.93
   fractions = lambda == 3 ? "5 10 15" : "5 10"
-  plot for [phi in fractions] for [seed in seeds(int(phi), lambda)] steps(int(phi), lambda, seed) \
+  plot for [phi in fractions] for [seed in seeds(int(phi), lambda)] series(int(phi), lambda, seed) \
            using "revolutions":"order_parameter" \
            with lines linewidth (seed eq "1" ? 1.6 : 0.5) linecolor rgb colour(int(phi), lambda) \
            title (seed eq "1" ? "φ = " . phi . " %" : ""), \
