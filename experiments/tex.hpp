@@ -89,7 +89,9 @@ inline std::string tex_number(double value, std::string_view format) {
 inline std::vector<std::vector<std::string>> requests_in(std::string_view document, const std::string& command, int count) {
   std::vector<std::vector<std::string>> requests;
   for (const std::string_view line : split(document, '\n')) {
-    const std::string_view code = line.substr(0, line.find('%'));
+    std::size_t comment = line.find('%');
+    while (comment != std::string_view::npos && comment > 0 && line[comment - 1] == '\\') comment = line.find('%', comment + 1);
+    const std::string_view code = line.substr(0, comment);
     const std::string start = concat("\\", command, "{");
     for (std::size_t at = code.find(start); at != std::string_view::npos; at = code.find(start, at + 1)) {
       std::vector<std::string> arguments;

@@ -50,9 +50,11 @@ TEST_CASE("numbers are written with the digits asked for") {
 TEST_CASE("requests are found once each, not in comments nor in definitions") {
   const std::string document =
       "\\newcommand{\\result}[3]{x}\n% \\result{no}{no}{0f}\nis \\result{a/b}{c}{2f}, \\result{a/d}{c}{2f} % \\result{no}{no}{0f}\n"
+      "5\\,\\% & \\result{a/e}{c}{2f} \\% % \\result{no}{no}{0f}\n"
       "\\newcommand{\\again}[1]{\\result{#1}{c}{2f}} \\result{a/b}{c}{2f}\n\\resultant{x}{y}{z}";
   const auto requests = requests_in(document, "result", 3);
-  REQUIRE(requests.size() == 2);
+  REQUIRE(requests.size() == 3);
+  CHECK(requests[2] == std::vector<std::string>{"a/e", "c", "2f"});
   CHECK(requests[0] == std::vector<std::string>{"a/b", "c", "2f"});
   CHECK(requests[1] == std::vector<std::string>{"a/d", "c", "2f"});
   CHECK_THROWS_AS(requests_in("\\result{a/b}{c}\n{2f}", "result", 3), InputError);
