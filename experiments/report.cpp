@@ -22,12 +22,16 @@ namespace fs = std::filesystem;
 
 std::string row_of(const std::vector<std::string>& cells) { return join(cells, " & ") + " \\\\\n"; }
 
+std::string definition(const std::string& name, const std::string& value) {
+  return concat("\\expandafter\\def\\csname ", name, "\\endcsname{", value, "}\n");
+}
+
 std::string values(Inputs& inputs, const std::string& document) {
   std::string text;
   for (const auto& r : requests_in(document, "result", 3))
-    text += concat("\\expandafter\\def\\csname result/", r[0], "/", r[1], "/", r[2], "\\endcsname{", inputs.tex(r[0], r[1], r[2]), "}\n");
+    text += definition(concat("result/", join(r, "/")), inputs.tex(r[0], r[1], r[2]));
   for (const auto& r : requests_in(document, "published", 1))
-    text += concat("\\expandafter\\def\\csname published/", r[0], "\\endcsname{", inputs.published(r[0]), "}\n");
+    text += definition(concat("published/", r[0]), inputs.published(r[0]));
   return text;
 }
 
@@ -42,7 +46,8 @@ std::string verdict_table(Inputs& inputs) {
     const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
     const auto status = std::find(statuses.begin(), statuses.end(), text("verdict")) - statuses.begin();
     if (status == 4) throw InputError(concat(verdict->where(row), ": unknown verdict"));
-    if (text("verdict") == "MISSING") inputs.problem(concat("no result ", text("experiment"), "/", text("case"), " ", text("quantity")));
+    if (text("verdict") == "MISSING")
+      inputs.problem(concat("no result ", text("experiment"), "/", text("case"), " ", text("quantity")));
     std::vector<int>& count = counts[text("experiment")];
     count.resize(8);
     const auto column = status + (text("source").starts_with("paper_") ? 0 : 4);
@@ -68,20 +73,22 @@ std::string verdict_rows(Inputs& inputs, const std::string& status) {
   for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
     const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
     if (text("verdict") != status) continue;
-    const std::string note = status == "KNOWN" ? text("note").substr(6)
-                                               : concat(text("case"), ", ", text("quantity"), ": ", text("got"), ", expected ", text("expected"));
-    ++groups[{text("experiment"), std::string(trim(note))}];
+    const std::string got = tex_number(verdict->number(row, verdict->column("got")), "5g");
+    const std::string what = concat("\\texttt{", tex_text(concat(text("case"), " ", text("quantity"))), "}: ");
+    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(trim(text("note").substr(6)))
+                                                    : concat(what, got, ", expected ", tex_text(text("expected")))}];
   }
   std::string table;
   for (const auto& [group, count] : groups)
-    table += row_of({concat("\\texttt{", tex_text(group.first), "}"), format_number(count), tex_prose(group.second)});
+    table += row_of({concat("\\texttt{", tex_text(group.first), "}"), format_number(count), group.second});
   return table.empty() ? row_of({"none", "", ""}) : table;
 }
 
 // Four lines for each separation: published, and by three models of contact.
 std::string table1(Inputs& inputs) {
   const std::vector<std::string> steps = {"0.04", "0.02", "0.01", "0.005", "0.0025"};
-  const std::vector<std::pair<std::string, std::string>> models = {{"", "exact gap"}, {"_stiv", "volumes, 128 vertices"}, {"_stiv32", "volumes, 32 vertices"}};
+  const std::vector<std::pair<std::string, std::string>> models = {
+      {"", "exact gap"}, {"_stiv", "volumes, 128 vertices"}, {"_stiv32", "volumes, 32 vertices"}};
   std::string table;
   for (const char* separation : {"0", "1", "2", "2.25", "2.5", "2.75", "3"}) {
     std::vector<std::string> line = {separation == std::string("0") ? "0" : concat("$", separation, "h$"), "published"};
@@ -91,7 +98,8 @@ std::string table1(Inputs& inputs) {
       if (!suffix.empty() && *parse_number(separation) < 2.0) continue;  // no contact there
       line = {"", model};
       for (const std::string& step : steps)
-        line.push_back(inputs.tex(concat("table1_reversibility/delta", separation, "h_dt", step, suffix), "reversal_error", "4f"));
+        line.push_back(inputs.tex(concat("table1_reversibility/delta", separation, "h_dt", step, suffix),
+                                  "reversal_error", "4f"));
       table += row_of(line);
     }
   }
@@ -108,9 +116,10 @@ std::string couette_table(Inputs& inputs, const std::string& name, bool order_pa
     const auto number = [&](const char* column) { return t->number(row, t->column(column)); };
     const double lambda = number("lambda"), published = number("published");
     const bool inside = number("minimum") <= published && published <= number("maximum");
-    std::vector<std::string> cells = {concat(number("phi"), "\\,\\%"), format_number(lambda), tex_number(published, "2f"), tex_number(number("mean"), "3f"),
-                                      concat(tex_number(number("minimum"), "3f"), " to ", tex_number(number("maximum"), "3f")),
-                                      format_number(number("seeds")), inside ? "yes" : "no"};
+    const auto digits = [&](const char* column) { return tex_number(number(column), "3f"); };
+    std::vector<std::string> cells = {
+        concat(number("phi"), "\\,\\%"), format_number(lambda), tex_number(published, "2f"), digits("mean"),
+        concat(digits("minimum"), " to ", digits("maximum")), format_number(number("seeds")), inside ? "yes" : "no"};
     if (order_parameter) cells.push_back(tex_number((lambda - 1.0) / (lambda + 1.0), "3f"));
     table += row_of(cells);
   }
@@ -150,8 +159,10 @@ std::string errata(const std::string& markdown) {
 
 std::string provenance(Inputs& inputs) {
   const Table* t = inputs.table("fig2_shear_separation/delta0h");
-  return concat("\\newcommand{\\version}{", t ? tex_text(t->comment("version")) : missing_mark, "}\n\\newcommand{\\compiler}{",
-                t ? tex_text(t->comment("compiler")) : missing_mark, "}\n");
+  std::string text;
+  for (const char* key : {"version", "compiler"})
+    text += concat("\\newcommand{\\", key, "}{", t ? tex_text(t->comment(key)) : missing_mark, "}\n");
+  return text;
 }
 
 void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
@@ -162,15 +173,18 @@ void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
 }
 
 int run(int argc, char** argv) {
-  std::map<std::string, std::string> options = {{"results", "results"}, {"reference", "reference_data"}, {"document", "paper/report.tex"},
-                                                {"errata", "paper/ERRATA.md"}, {"missing", "fail"}};
+  std::map<std::string, std::string> options = {{"results", "results"},
+                                                {"reference", "reference_data"},
+                                                {"document", "paper/report.tex"},
+                                                {"errata", "paper/ERRATA.md"},
+                                                {"missing", "fail"}};
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const std::size_t equals = argument.find('=');
     const auto option = options.find(argument.substr(0, equals));
     if (equals == std::string::npos || option == options.end())
-      throw InputError(concat("unknown argument ", quote(argument),
-                              "; usage: report [results=DIR] [reference=DIR] [document=FILE] [errata=FILE] [missing=fail|allow]"));
+      throw InputError(concat("unknown argument ", quote(argument), "; usage: report [results=DIR] [reference=DIR] ",
+                              "[document=FILE] [errata=FILE] [missing=fail|allow]"));
     option->second = argument.substr(equals + 1);
   }
   if (options["missing"] != "fail" && options["missing"] != "allow")

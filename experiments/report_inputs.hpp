@@ -81,7 +81,8 @@ class Inputs {
     const Table* found = table(file.substr(0, bracket));
     if (!found) return std::nullopt;
     for (int row = 0; row < static_cast<int>(found->rows.size()); ++row)
-      if (found->has_column(column) && selected(*found, row, file.substr(bracket))) return found->number(row, found->column(column));
+      if (found->has_column(column) && selected(*found, row, file.substr(bracket)))
+        return found->number(row, found->column(column));
     problem(concat("no ", column, file.substr(bracket), " in ", found->file));
     return std::nullopt;
   }

@@ -90,7 +90,8 @@ inline std::vector<std::vector<std::string>> requests_in(std::string_view docume
   std::vector<std::vector<std::string>> requests;
   for (const std::string_view line : split(document, '\n')) {
     std::size_t comment = line.find('%');
-    while (comment != std::string_view::npos && comment > 0 && line[comment - 1] == '\\') comment = line.find('%', comment + 1);
+    while (comment != std::string_view::npos && comment > 0 && line[comment - 1] == '\\')
+      comment = line.find('%', comment + 1);
     const std::string_view code = line.substr(0, comment);
     const std::string start = concat("\\", command, "{");
     for (std::size_t at = code.find(start); at != std::string_view::npos; at = code.find(start, at + 1)) {
@@ -105,7 +106,8 @@ inline std::vector<std::vector<std::string>> requests_in(std::string_view docume
       if (static_cast<int>(arguments.size()) < count)
         throw InputError(concat("\\", command, " takes ", count, " arguments on one line: ", quote(line)));
       const bool definition = arguments[0].find('#') != std::string::npos;
-      if (!definition && std::find(requests.begin(), requests.end(), arguments) == requests.end()) requests.push_back(arguments);
+      const bool known = std::find(requests.begin(), requests.end(), arguments) != requests.end();
+      if (!definition && !known) requests.push_back(arguments);
     }
   }
   return requests;
