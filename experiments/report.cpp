@@ -1,12 +1,12 @@
 // Writes the numbers and tables of the report as LaTeX, from results and reference values alone.
 //
-//   report [results=DIR] [reference=DIR] [document=FILE] [errata=FILE] [missing=fail|allow]
+//   report [results=DIR] [reference=DIR] [document=DIR] [errata=FILE] [missing=fail|allow]
 //
-// The document asks for a number by \result{EXPERIMENT/CASE}{COLUMN}{FORMAT}: the first row of results/EXPERIMENT/CASE.csv,
-// or the row that a selection names, as in table[phi=5,lambda=3]; FORMAT is that of tex_number; for a published value by
-// \published{ID}, the id of a row of the reference values. Their definitions go to results/report/values.tex, the tables
-// to files beside it. Exit status: 0; 1 for results that are missing or older than what they are made from, unless
-// missing=allow, which writes \missing{} in their place; 2 for wrong input.
+// The document, all .tex files of its folder, asks for a number by \result{EXPERIMENT/CASE}{COLUMN}{FORMAT}: the first
+// row of results/EXPERIMENT/CASE.csv, or the row that a selection names, as in table[phi=5,lambda=3]; FORMAT is that of
+// tex_number. It asks for a published value by \published{ID}, the id of a row of the reference values. Their definitions
+// go to results/report/values.tex, the tables to files beside it. Exit status: 0; 1 for results that are missing or older
+// than what they are made from, unless missing=allow, which writes \missing{} in their place; 2 for wrong input.
 
 #include <algorithm>
 #include <cstdio>
@@ -129,7 +129,7 @@ std::string couette_table(Inputs& inputs, const std::string& name, bool order_pa
 std::string timing_table(Inputs& inputs) {
   std::string table;
   for (const fs::path& folder : folders(inputs.results()))
-    for (const fs::path& file : csv_files(folder)) {
+    for (const fs::path& file : files_in(folder, ".csv")) {
       const std::string stem = file.stem().string(), experiment = folder.filename().string();
       if (!stem.ends_with("_timing")) continue;
       const std::string name = stem.substr(0, stem.size() - 7);
@@ -175,7 +175,7 @@ void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
 int run(int argc, char** argv) {
   std::map<std::string, std::string> options = {{"results", "results"},
                                                 {"reference", "reference_data"},
-                                                {"document", "paper/report.tex"},
+                                                {"document", "paper"},
                                                 {"errata", "paper/ERRATA.md"},
                                                 {"missing", "fail"}};
   for (int i = 1; i < argc; ++i) {
@@ -184,7 +184,7 @@ int run(int argc, char** argv) {
     const auto option = options.find(argument.substr(0, equals));
     if (equals == std::string::npos || option == options.end())
       throw InputError(concat("unknown argument ", quote(argument), "; usage: report [results=DIR] [reference=DIR] ",
-                              "[document=FILE] [errata=FILE] [missing=fail|allow]"));
+                              "[document=DIR] [errata=FILE] [missing=fail|allow]"));
     option->second = argument.substr(equals + 1);
   }
   if (options["missing"] != "fail" && options["missing"] != "allow")
@@ -193,7 +193,9 @@ int run(int argc, char** argv) {
 
   Inputs inputs(options["results"], options["reference"]);
   require_fresh_verdict(inputs, options["reference"]);
-  const std::string document = read_text_file(options["document"], "the report");
+  std::string document;
+  for (const fs::path& file : files_in(options["document"], ".tex")) document += read_text_file(file, "the report");
+  if (document.empty()) throw InputError(concat("no report in ", quote(options["document"])));
   const std::map<std::string, std::string> parts = {
       {"values", provenance(inputs) + values(inputs, document)},
       {"verdict", verdict_table(inputs)},

@@ -24,11 +24,11 @@ inline bool is_collected(const std::filesystem::path& file) {
   return false;
 }
 
-inline std::vector<std::filesystem::path> csv_files(const std::filesystem::path& folder) {
+inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder, const char* extension) {
   std::vector<std::filesystem::path> files;
   if (std::filesystem::is_directory(folder))
     for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().extension() == ".csv") files.push_back(entry.path());
+      if (entry.path().extension() == extension) files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -45,7 +45,7 @@ inline std::vector<std::filesystem::path> folders(const std::filesystem::path& r
 class Inputs {
  public:
   Inputs(std::filesystem::path results, const std::filesystem::path& reference) : results_(std::move(results)) {
-    for (const std::filesystem::path& file : csv_files(reference)) reference_.push_back(read_csv(file));
+    for (const std::filesystem::path& file : files_in(reference, ".csv")) reference_.push_back(read_csv(file));
     if (reference_.empty()) throw InputError(concat("no reference values in ", quote(reference.string())));
   }
 
@@ -55,7 +55,7 @@ class Inputs {
 
   // A file that is older than the results of a case in `folder` is a problem.
   void require_not_older(const std::filesystem::path& file, const std::filesystem::path& folder) {
-    for (const std::filesystem::path& other : csv_files(folder))
+    for (const std::filesystem::path& other : files_in(folder, ".csv"))
       if (!is_collected(other) && std::filesystem::last_write_time(other) > std::filesystem::last_write_time(file))
         problem(concat(file.string(), " is older than ", other.string()));
   }
