@@ -76,6 +76,7 @@ inline std::string tex_number(double value, std::string_view format) {
       std::string_view("fge").find(format[1]) == std::string_view::npos)
     throw InputError(concat("a number is written by a format like 3f, 2g or 1e, not ", quote(format)));
   if (std::isnan(value)) return "--";
+  if (std::isinf(value)) return value > 0.0 ? "$\\infty$" : "$-\\infty$";
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, concat("%.", format, "").c_str(), value);
   const std::string text = buffer;

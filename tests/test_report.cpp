@@ -44,6 +44,7 @@ TEST_CASE("numbers are written with the digits asked for") {
   CHECK(tex_number(1e-14, "2g") == "$1\\times10^{-14}$");
   CHECK(tex_number(30.0, "0f") == "$30$");
   CHECK(tex_number(std::nan(""), "2f") == "--");
+  CHECK(tex_number(-HUGE_VAL, "2f") == "$-\\infty$");
   for (const char* format : {"", "f", "10f", "2x", "%2f"}) CHECK_THROWS_AS(tex_number(1.0, format), InputError);
 }
 
