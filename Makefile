@@ -162,16 +162,20 @@ verify: $(BUILD)/verify
 # --- figures and report, from the results that are there --------------------------------------------------
 figures:
 	@$(MAKE) -k --no-print-directory -f paper/Makefile figures
-paper: $(BUILD)/verify $(BUILD)/report
+paper: $(BUILD)/verify $(BUILD)/report $(RESULTS)/bench/bench.csv
 	@rm -f $(RESULTS)/report/report.pdf
 	@$(MAKE) -k --no-print-directory -f paper/Makefile paper
 movies: $(BUILD)/simulate
 	@$(MAKE) --no-print-directory -f paper/Makefile movies
 
 # --- timings: nothing of them is compared -----------------------------------------------------------------
-bench: $(BUILD)/bench
-	@$(BUILD)/bench threads=1
-	@$(BUILD)/bench | tail -n +2
+$(RESULTS)/bench/bench.csv: $(BUILD)/bench
+	@mkdir -p $(@D)
+	@{ $(BUILD)/bench threads=1; $(BUILD)/bench | tail -n +2; } > $@
+bench:
+	@rm -f $(RESULTS)/bench/bench.csv
+	@$(MAKE) --no-print-directory $(RESULTS)/bench/bench.csv
+	@cat $(RESULTS)/bench/bench.csv
 
 clean:
 	rm -rf $(BUILD) $(RESULTS)

@@ -142,6 +142,18 @@ std::string timing_table(Inputs& inputs) {
   return table.empty() ? row_of({missing_mark}) : table;
 }
 
+// Kernels and steps, as `make bench` times them.
+std::string bench_table(Inputs& inputs) {
+  const Table* t = inputs.table("bench/bench");
+  if (!t) return row_of({missing_mark});
+  std::string table;
+  for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
+    const auto text = [&](const char* column) { return tex_text(t->text(row, t->column(column))); };
+    table += row_of({text("quantity"), text("size"), text("threads"), tex_number(t->number(row, t->column("value")), "3g"), text("unit")});
+  }
+  return table;
+}
+
 // Rows of the first table of a Markdown file.
 std::string errata(const std::string& markdown) {
   std::string table;
@@ -205,6 +217,7 @@ int run(int argc, char** argv) {
       {"table2", couette_table(inputs, "table2_order_parameter", true)},
       {"table3", couette_table(inputs, "table3_effective_viscosity", false)},
       {"timing", timing_table(inputs)},
+      {"bench", bench_table(inputs)},
       {"errata", errata(read_text_file(options["errata"], "the list of errata"))}};
   std::size_t told = 0;
   for (const std::string& problem : inputs.problems())
