@@ -24,7 +24,8 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps all test reproduce reproduce-quick verify bench sanitize clean FORCE
+.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize clean \
+        FORCE
 .SECONDARY:
 
 help:
@@ -33,6 +34,10 @@ help:
 	@echo 'make reproduce        run every experiment and compare with the published values'
 	@echo 'make reproduce-quick  the coarse cases of every experiment only'
 	@echo 'make verify           compare the results that are there, without running anything'
+	@echo 'make figures          draw the figures of the paper from the results (gnuplot)'
+	@echo 'make paper            the report, with its figures, tables and numbers, from the results (gnuplot, LaTeX)'
+	@echo 'make movies           moving pictures of two suspensions, minutes (gnuplot)'
+	@echo 'make deps-figures     install gnuplot and LaTeX where they are missing; nothing else needs them'
 	@echo 'make all              build everything'
 	@echo 'make bench            time the kernels and the solver'
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
@@ -40,6 +45,7 @@ help:
 	@echo
 	@echo 'CXX=clang++  another compiler        PORTABLE=1   no -march=native'
 	@echo 'BUILD=dir    another build folder    RESULTS=dir  another results folder'
+	@echo 'MISSING=allow  figures and report of incomplete results'
 	@echo '-j2          independent work side by side'
 
 all: $(BINARIES)
@@ -47,15 +53,20 @@ all: $(BINARIES)
 # --- dependencies ---------------------------------------------------------------------------------------
 HEADERS  = eigen3/Eigen/Core fftw3.h doctest/doctest.h
 missing  = for h in $(HEADERS); do echo "\#include <$$h>" | $(CXX) -std=c++20 -x c++ -fsyntax-only - 2>/dev/null || echo $$h; done
+# $(call install,packages,what they are)
+install  = if command -v apt-get >/dev/null; then \
+             root=; [ "$$(id -u)" = 0 ] || root=sudo; \
+             $$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive \
+               apt-get install -q -y --no-install-recommends $(1); \
+           else echo 'Please install $(2).' >&2; exit 1; fi
 deps:
 	@if ! command -v $(CXX) >/dev/null || [ -n "$$($(missing))" ]; then \
-	  if command -v apt-get >/dev/null; then \
-	    root=; [ "$$(id -u)" = 0 ] || root=sudo; \
-	    $$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive \
-	      apt-get install -q -y --no-install-recommends g++ libeigen3-dev libfftw3-dev doctest-dev; \
-	  else \
-	    echo 'Please install a C++20 compiler, Eigen 3, FFTW 3 and doctest; missing here:' $$($(missing)) >&2; exit 1; \
-	  fi; \
+	  echo 'Missing here:' $$($(missing)); \
+	  $(call install,g++ libeigen3-dev libfftw3-dev doctest-dev,a C++20 compiler with Eigen 3 and FFTW 3 and doctest); \
+	fi
+deps-figures:
+	@if ! command -v gnuplot >/dev/null || ! kpsewhich booktabs.sty lmodern.sty >/dev/null; then \
+	  $(call install,gnuplot-nox fonts-dejavu texlive-latex-recommended lmodern,gnuplot and LaTeX with booktabs and lmodern); \
 	fi
 
 # --- compilation ----------------------------------------------------------------------------------------
@@ -148,10 +159,23 @@ reproduce-quick: $(BUILD)/verify
 verify: $(BUILD)/verify
 	@$(BUILD)/verify results=$(RESULTS)
 
+# --- figures and report, from the results that are there --------------------------------------------------
+figures:
+	@$(MAKE) -k --no-print-directory -f paper/Makefile figures
+paper: $(BUILD)/verify $(BUILD)/report $(RESULTS)/bench/bench.csv
+	@rm -f $(RESULTS)/report/report.pdf
+	@$(MAKE) -k --no-print-directory -f paper/Makefile paper
+movies: $(BUILD)/simulate
+	@$(MAKE) --no-print-directory -f paper/Makefile movies
+
 # --- timings: nothing of them is compared -----------------------------------------------------------------
-bench: $(BUILD)/bench
-	@$(BUILD)/bench threads=1
-	@$(BUILD)/bench | tail -n +2
+$(RESULTS)/bench/bench.csv: $(BUILD)/bench
+	@mkdir -p $(@D)
+	@{ $(BUILD)/bench threads=1; $(BUILD)/bench | tail -n +2; } > $@
+bench:
+	@rm -f $(RESULTS)/bench/bench.csv
+	@$(MAKE) --no-print-directory $(RESULTS)/bench/bench.csv
+	@cat $(RESULTS)/bench/bench.csv
 
 clean:
 	rm -rf $(BUILD) $(RESULTS)

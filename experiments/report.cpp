@@ -1,0 +1,241 @@
+// Writes the numbers and tables of the report as LaTeX, from results and reference values alone.
+//
+//   report [results=DIR] [reference=DIR] [document=DIR] [errata=FILE] [missing=fail|allow]
+//
+// The document, all .tex files of its folder, asks for a number by \result{EXPERIMENT/CASE}{COLUMN}{FORMAT}: the first
+// row of results/EXPERIMENT/CASE.csv, or the row that a selection names, as in table[phi=5,lambda=3]; FORMAT is that of
+// tex_number. It asks for a published value by \published{ID}, the id of a row of the reference values. Their definitions
+// go to results/report/values.tex, the tables to files beside it. Exit status: 0; 1 for results that are missing or older
+// than what they are made from, unless missing=allow, which writes \missing{} in their place; 2 for wrong input.
+
+#include <algorithm>
+#include <cstdio>
+
+#include "report_inputs.hpp"
+
+namespace {
+
+using namespace stokes;
+namespace fs = std::filesystem;
+
+// --- the parts of the report ----------------------------------------------------------------------------
+
+std::string row_of(const std::vector<std::string>& cells) { return join(cells, " & ") + " \\\\\n"; }
+
+std::string definition(const std::string& name, const std::string& value) {
+  return concat("\\expandafter\\def\\csname ", name, "\\endcsname{", value, "}\n");
+}
+
+std::string values(Inputs& inputs, const std::string& document) {
+  std::string text;
+  for (const auto& r : requests_in(document, "result", 3))
+    text += definition(concat("result/", join(r, "/")), inputs.tex(r[0], r[1], r[2]));
+  for (const auto& r : requests_in(document, "published", 1))
+    text += definition(concat("published/", r[0]), inputs.published(r[0]));
+  return text;
+}
+
+// For each experiment: rows of the verdict by status, published values apart from exact ones and earlier results.
+std::string verdict_table(Inputs& inputs) {
+  const std::vector<std::string> statuses = {"PASS", "KNOWN", "FAIL", "MISSING"};
+  std::map<std::string, std::vector<int>> counts;
+  std::vector<int> total(8);
+  const Table* verdict = inputs.table("verdict");
+  if (!verdict) return row_of({missing_mark});
+  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
+    const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
+    const auto status = std::find(statuses.begin(), statuses.end(), text("verdict")) - statuses.begin();
+    if (status == 4) throw InputError(concat(verdict->where(row), ": unknown verdict"));
+    if (text("verdict") == "MISSING")
+      inputs.problem(concat("no result ", text("experiment"), "/", text("case"), " ", text("quantity")));
+    std::vector<int>& count = counts[text("experiment")];
+    count.resize(8);
+    const auto column = status + (text("source").starts_with("paper_") ? 0 : 4);
+    ++count[column], ++total[column];
+  }
+  std::string table;
+  const auto add = [&](const std::string& name, const std::vector<int>& numbers) {
+    std::vector<std::string> cells = {name};
+    for (const int n : numbers) cells.push_back(n ? format_number(n) : "");
+    table += row_of(cells);
+  };
+  for (const auto& [experiment, count] : counts) add(concat("\\texttt{", tex_text(experiment), "}"), count);
+  table += "\\midrule\n";
+  add("all", total);
+  return table;
+}
+
+// Rows of the verdict with this status: KNOWN ones once for each note, the others one by one.
+std::string verdict_rows(Inputs& inputs, const std::string& status) {
+  const Table* verdict = inputs.table("verdict");
+  if (!verdict) return row_of({missing_mark});
+  std::map<std::pair<std::string, std::string>, int> groups;
+  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
+    const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
+    if (text("verdict") != status) continue;
+    const std::string got = tex_number(verdict->number(row, verdict->column("got")), "5g");
+    const std::string what = concat("\\texttt{", tex_text(concat(text("case"), " ", text("quantity"))), "}: ");
+    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(trim(text("note").substr(6)))
+                                                    : concat(what, got, ", expected ", tex_text(text("expected")))}];
+  }
+  std::string table;
+  for (const auto& [group, count] : groups)
+    table += row_of({concat("\\texttt{", tex_text(group.first), "}"), format_number(count), group.second});
+  return table.empty() ? row_of({"none", "", ""}) : table;
+}
+
+// Four lines for each separation: published, and by three models of contact.
+std::string table1(Inputs& inputs) {
+  const std::vector<std::string> steps = {"0.04", "0.02", "0.01", "0.005", "0.0025"};
+  const std::vector<std::pair<std::string, std::string>> models = {
+      {"", "exact gap"}, {"_stiv", "volumes, 128 vertices"}, {"_stiv32", "volumes, 32 vertices"}};
+  std::string table;
+  for (const char* separation : {"0", "1", "2", "2.25", "2.5", "2.75", "3"}) {
+    std::vector<std::string> line = {separation == std::string("0") ? "0" : concat("$", separation, "h$"), "published"};
+    for (const std::string& step : steps) line.push_back(inputs.published(concat("t1-", separation, "h-", step)));
+    table += concat(separation == std::string("0") ? "" : "\\addlinespace\n", row_of(line));
+    for (const auto& [suffix, model] : models) {
+      if (!suffix.empty() && *parse_number(separation) < 2.0) continue;  // no contact there
+      line = {"", model};
+      for (const std::string& step : steps)
+        line.push_back(inputs.tex(concat("table1_reversibility/delta", separation, "h_dt", step, suffix),
+                                  "reversal_error", "4f"));
+      table += row_of(line);
+    }
+  }
+  return table;
+}
+
+// Published mean, and mean and range over the seeds, of the suspensions between cylinders.
+std::string couette_table(Inputs& inputs, const std::string& name, bool order_parameter) {
+  const Table* t = inputs.table(name + "/table");
+  if (!t) return row_of({missing_mark});
+  inputs.require_not_older(inputs.results() / name / "table.csv", inputs.results() / "couette_run");
+  std::string table;
+  for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
+    const auto number = [&](const char* column) { return t->number(row, t->column(column)); };
+    const double lambda = number("lambda"), published = number("published");
+    const bool inside = number("minimum") <= published && published <= number("maximum");
+    const auto digits = [&](const char* column) { return tex_number(number(column), "3f"); };
+    std::vector<std::string> cells = {
+        concat(number("phi"), "\\,\\%"), format_number(lambda), tex_number(published, "2f"), digits("mean"),
+        concat(digits("minimum"), " to ", digits("maximum")), format_number(number("seeds")), inside ? "yes" : "no"};
+    if (order_parameter) cells.push_back(tex_number((lambda - 1.0) / (lambda + 1.0), "3f"));
+    table += row_of(cells);
+  }
+  return table;
+}
+
+std::string timing_table(Inputs& inputs) {
+  std::string table;
+  for (const fs::path& folder : folders(inputs.results()))
+    for (const fs::path& file : files_in(folder, ".csv")) {
+      const std::string stem = file.stem().string(), experiment = folder.filename().string();
+      if (!stem.ends_with("_timing")) continue;
+      const std::string name = stem.substr(0, stem.size() - 7);
+      const Table* run = inputs.table(concat(experiment, "/", name));
+      table += row_of({concat("\\texttt{", tex_text(experiment), "}"), tex_text(name),
+                       run && run->has_column("steps") ? tex_number(run->number(0, run->column("steps")), "0f") : "",
+                       inputs.tex(concat(experiment, "/", stem), "seconds", "0f")});
+    }
+  if (table.empty()) inputs.problem("no timings in the results");
+  return table.empty() ? row_of({missing_mark}) : table;
+}
+
+// Kernels and steps, as `make bench` times them.
+std::string bench_table(Inputs& inputs) {
+  const Table* t = inputs.table("bench/bench");
+  if (!t) return row_of({missing_mark});
+  std::string table;
+  for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
+    const auto text = [&](const char* column) { return tex_text(t->text(row, t->column(column))); };
+    table += row_of({text("quantity"), text("size"), text("threads"), tex_number(t->number(row, t->column("value")), "3g"), text("unit")});
+  }
+  return table;
+}
+
+// Rows of the first table of a Markdown file.
+std::string errata(const std::string& markdown) {
+  std::string table;
+  int lines = 0;
+  for (const std::string_view line : split(markdown, '\n')) {
+    if (!line.starts_with("|") || ++lines <= 2) continue;  // header, rule
+    std::vector<std::string> cells;
+    const std::string_view inner = trim(line);
+    for (const std::string_view cell : split(inner.substr(1, inner.size() - 2), '|')) cells.push_back(tex_prose(trim(cell)));
+    table += row_of(cells);
+  }
+  if (table.empty()) throw InputError("no table of errata");
+  return table;
+}
+
+std::string provenance(Inputs& inputs) {
+  const Table* t = inputs.table("fig2_shear_separation/delta0h");
+  std::string text;
+  for (const char* key : {"version", "compiler"})
+    text += concat("\\newcommand{\\", key, "}{", t ? tex_text(t->comment(key)) : missing_mark, "}\n");
+  return text;
+}
+
+void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
+  const fs::path verdict = inputs.results() / "verdict.csv";
+  if (!fs::exists(verdict)) return;  // told when it is read
+  inputs.require_not_older(verdict, reference);
+  for (const fs::path& folder : folders(inputs.results())) inputs.require_not_older(verdict, folder);
+}
+
+int run(int argc, char** argv) {
+  std::map<std::string, std::string> options = {{"results", "results"},
+                                                {"reference", "reference_data"},
+                                                {"document", "paper"},
+                                                {"errata", "paper/ERRATA.md"},
+                                                {"missing", "fail"}};
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const std::size_t equals = argument.find('=');
+    const auto option = options.find(argument.substr(0, equals));
+    if (equals == std::string::npos || option == options.end())
+      throw InputError(concat("unknown argument ", quote(argument), "; usage: report [results=DIR] [reference=DIR] ",
+                              "[document=DIR] [errata=FILE] [missing=fail|allow]"));
+    option->second = argument.substr(equals + 1);
+  }
+  if (options["missing"] != "fail" && options["missing"] != "allow")
+    throw InputError(concat("missing = fail or allow, not ", quote(options["missing"])));
+  if (!fs::is_directory(options["results"])) throw InputError(concat("no results in ", quote(options["results"])));
+
+  Inputs inputs(options["results"], options["reference"]);
+  require_fresh_verdict(inputs, options["reference"]);
+  std::string document;
+  for (const fs::path& file : files_in(options["document"], ".tex")) document += read_text_file(file, "the report");
+  if (document.empty()) throw InputError(concat("no report in ", quote(options["document"])));
+  const std::map<std::string, std::string> parts = {
+      {"values", provenance(inputs) + values(inputs, document)},
+      {"verdict", verdict_table(inputs)},
+      {"known", verdict_rows(inputs, "KNOWN")},
+      {"failed", verdict_rows(inputs, "FAIL")},
+      {"table1", table1(inputs)},
+      {"table2", couette_table(inputs, "table2_order_parameter", true)},
+      {"table3", couette_table(inputs, "table3_effective_viscosity", false)},
+      {"timing", timing_table(inputs)},
+      {"bench", bench_table(inputs)},
+      {"errata", errata(read_text_file(options["errata"], "the list of errata"))}};
+  std::size_t told = 0;
+  for (const std::string& problem : inputs.problems())
+    if (++told <= 10) std::fprintf(stderr, "report: %s\n", problem.c_str());
+  if (told > 10) std::fprintf(stderr, "report: and %zu more\n", told - 10);
+  if (!inputs.problems().empty() && options["missing"] == "fail") return 1;
+  fs::create_directories(inputs.results() / "report");
+  for (const auto& [name, text] : parts) write_file_atomically(inputs.results() / "report" / (name + ".tex"), text);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "report: %s\n", error.what());
+    return 2;
+  }
+}
