@@ -33,6 +33,7 @@ help:
 	@echo 'make test             build and run the tests'
 	@echo 'make reproduce        run every experiment and compare with the published values'
 	@echo 'make reproduce-quick  the coarse cases of every experiment only'
+	@echo '  SEEDS=n             with n random starts of each suspension between cylinders, 1 if not given'
 	@echo 'make verify           compare the results that are there, without running anything'
 	@echo 'make figures          draw the figures of the paper from the results (gnuplot)'
 	@echo 'make paper            the report, with its figures, tables and numbers, from the results (gnuplot, LaTeX)'
@@ -127,6 +128,13 @@ TG_ITERATIONS      = $(foreach k,none block pair,cold_$(k) $(foreach t,1e-6 1e-8
 INJECTION_CASES    = seed1 seed2 seed3 seed1_plain seed1_stiv
 TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
 
+# Section 4.4: SEEDS starts of each suspension; longest first.
+SEEDS              ?= 1
+COUETTE            = phi10_lambda6 phi15_lambda3 phi5_lambda6 phi10_lambda3 phi15_lambda1 phi10_lambda1 phi5_lambda3 phi5_lambda1
+COUETTE_VARIANTS   = points64 halfstep stiv
+COUETTE_CASES      = $(foreach k,$(shell seq $(SEEDS)),$(COUETTE:%=%_seed$(k))) $(COUETTE_VARIANTS:%=phi5_lambda3_seed1_%)
+COUETTE_TABLES     = table2_order_parameter table3_effective_viscosity fig9_order_parameter fig10_effective_viscosity
+
 # $(call experiment,name,cases,quick cases): `name` makes all its cases and then its tables.
 define experiment
 .PHONY: $(1) $(1)-quick
@@ -150,7 +158,14 @@ $(eval $(call experiment,close_evaluation,$(CLOSE_CASES),$(CLOSE_CASES)))
 $(eval $(call experiment,fig4_taylor_green,$(FIG4_CASES),quick))
 $(eval $(call experiment,taylor_green_claims,$(TG_CASES),points))
 $(eval $(call experiment,fig6_injection,$(INJECTION_CASES),))
+$(eval $(call experiment,couette_run,$(COUETTE_CASES),phi5_lambda3_seed1_quick))
+$(eval $(call experiment,fig8_initial_configurations,$(COUETTE),$(COUETTE)))
+$(foreach t,$(COUETTE_TABLES),$(eval $(call experiment,$(t),$(if $(filter fig9%,$(t)),orbit),$(if $(filter fig9%,$(t)),orbit))))
+$(COUETTE_TABLES): couette_run
 $(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
+
+couette_cases:  # their names, for experiments/submit_couette.sh
+	@printf '%s\n' $(COUETTE_CASES)
 
 reproduce: $(BUILD)/verify
 	@$(BUILD)/verify results=$(RESULTS)

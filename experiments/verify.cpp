@@ -9,7 +9,8 @@
 //   at_least, order_at_least   got >= value - d    interval   value is `low..high`, low - d <= got <= high + d
 //   true            got = 1
 // A row whose note starts with `KNOWN:` is a documented deviation: out of tolerance it counts apart, as
-// KNOWN, not as a failure. The verdict also goes to results/verdict.csv.
+// KNOWN, not as a failure. One whose note starts with `OPTIONAL:` needs runs that are not made unless asked for;
+// without them it is NOT RUN, which is no failure either. The verdict also goes to results/verdict.csv.
 // Exit status: 0 all pass or are known; 1 a FAIL, or a MISSING unless missing=allow; 2 wrong input.
 
 #include <algorithm>
@@ -30,6 +31,8 @@ struct Verdict {
   std::string id, experiment, case_name, quantity, expected, source, locator, status, note;
   double got = std::nan("");
   double error = std::nan("");  // in units of the tolerance; at most 1 passes
+
+  bool judged() const { return status != "MISSING" && status != "NOT RUN"; }
 };
 
 double required(const Table& table, int row, const std::string& column) {
@@ -66,6 +69,7 @@ Verdict judge(const Table& table, int row, const fs::path& results) {
   const auto text = [&](const char* column) { return table.text(row, table.column(column)); };
   Verdict v{text("id"), text("experiment"), text("case"), text("quantity"), text("value"),
             text("source"), text("locator"), "MISSING", text("note"), std::nan(""), std::nan("")};
+  if (v.note.starts_with("OPTIONAL:")) v.status = "NOT RUN";
   const fs::path file = results / v.experiment / (v.case_name + ".csv");
   if (!fs::exists(file)) return v;
   const Table result = read_csv(file);
@@ -102,8 +106,8 @@ void print(const std::vector<Verdict>& verdicts) {
   for (const Verdict& v : verdicts) {
     if (v.experiment != experiment) std::printf("%s\n", (experiment = v.experiment).c_str());
     std::printf("  %-32s %-28s %12s %12s %8s  %-12s %s\n", v.case_name.c_str(), v.quantity.c_str(),
-                v.status == "MISSING" ? "-" : fixed(v.got, 6).c_str(), v.expected.c_str(),
-                v.status == "MISSING" ? "-" : fixed(v.error, 2).c_str(), v.source.c_str(), v.status.c_str());
+                v.judged() ? fixed(v.got, 6).c_str() : "-", v.expected.c_str(),
+                v.judged() ? fixed(v.error, 2).c_str() : "-", v.source.c_str(), v.status.c_str());
   }
 }
 
@@ -135,7 +139,8 @@ int run(int argc, char** argv) {
   for (const Verdict& v : verdicts)
     if (v.status == "KNOWN") ++known[v.experiment + v.note.substr(5)];
   for (const auto& [note, rows] : known) std::printf("KNOWN, %d rows, %s\n", rows, note.c_str());
-  std::printf("verdict: %d PASS, %d KNOWN, %d FAIL, %d MISSING\n", count["PASS"], count["KNOWN"], count["FAIL"], count["MISSING"]);
+  std::printf("verdict: %d PASS, %d KNOWN, %d FAIL, %d MISSING, %d NOT RUN\n", count["PASS"], count["KNOWN"], count["FAIL"],
+              count["MISSING"], count["NOT RUN"]);
   return count["FAIL"] > 0 || (count["MISSING"] > 0 && options["missing"] == "fail") ? 1 : 0;
 }
 

@@ -19,12 +19,6 @@ constexpr double close_pair = 0.35;
 
 }  // namespace
 
-std::vector<Discretisation> equal_nodes(const Suspension& bodies, int points) {
-  std::vector<Discretisation> nodes;
-  for (const Body& body : bodies) nodes.push_back({body.points > 0 ? body.points : points, {}});
-  return nodes;
-}
-
 StokesSystem::StokesSystem(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes,
                            const StokesOptions& options)
     : options_(options) {

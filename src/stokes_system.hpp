@@ -21,6 +21,7 @@
 #include "flow.hpp"
 #include "fmm.hpp"
 #include "preconditioner.hpp"
+#include "refinement.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -49,9 +50,6 @@ struct StokesSolution {
   double residual = 0.0;                // relative true residual
   double data_norm = 0.0;               // of the right-hand side, what it is relative to
 };
-
-// Nodes of every body when all have `points`, or their own number.
-std::vector<Discretisation> equal_nodes(const Suspension& bodies, int points);
 
 class StokesSystem {
  public:
