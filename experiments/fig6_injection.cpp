@@ -161,7 +161,7 @@ class Log {
 };
 
 // The driving by itself: the flow without bodies at points, and lone discs, which a potential flow carries along like
-// points: r^2 - r0^2 = t.
+// points, r^2 - r0^2 = t, but for what the walls reflect of their disturbance, proportional to their area.
 void run_undisturbed(const Results& results) {
   const Injection parameters;
   const SimulationOptions options = injection_options(parameters);
@@ -176,7 +176,8 @@ void run_undisturbed(const Results& results) {
   for (std::size_t k = 0; k < points.size(); ++k)
     error = std::max(error, std::abs(2.0 * flows[k].velocity * std::conj(points[k]) - 1.0));
   Quantities row = {{"flow_error", error}};
-  for (const double radius : {0.01, injection_disc.a}) {
+  std::vector<double> growth;
+  for (const double radius : {0.01, 0.5 * injection_disc.a, injection_disc.a}) {
     const Body disc{{radius, radius}, {{2.0, 0.0}, 0.0}, {}, {}};
     double outward = 0.0, back = 0.0;
     simulate(between_walls({disc}, injection_annulus(parameters)), options, [&](const StepRecord& record) {
@@ -186,7 +187,9 @@ void run_undisturbed(const Results& results) {
     });
     row.push_back({concat("growth_of_r2_radius", radius), outward});
     row.push_back({concat("displacement_radius", radius), back});
+    growth.push_back(outward);
   }
+  row.push_back({"order_of_reflections", std::log2((growth[2] - growth[0]) / (growth[1] - growth[0]))});
   results.write("undisturbed", row);
 }
 
