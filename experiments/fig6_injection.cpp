@@ -1,7 +1,7 @@
 // Figures 5 and 6: where the discs of section 4.3 go, and how far from their starts they come back.
 // Cases: seed1 to seed3, random starts; _stiv: interference volumes; _plain: 32 nodes at equal steps, without clusters
 // near contacts; _wall64: fewer nodes on the walls; delta*h: seed 1 with other separations; near0.2h: starts up to the
-// ring; free_dt*: no contact, other steps; undisturbed: a lone disc; quick: only to t = 0.4.
+// ring; free_dt*: no contact, other steps; undisturbed: a lone disc; quick: only to t = 1.
 
 #include "experiment.hpp"
 #include "injection.hpp"
@@ -43,7 +43,7 @@ std::vector<Case> all_cases() {
     free.time_step = *parse_number(step);
   }
   Injection& quick = add("quick");
-  quick.reverse_at = 0.2, quick.end_time = 0.4, quick.separation_over_h = 3.0;
+  quick.reverse_at = 0.5, quick.end_time = 1.0, quick.separation_over_h = 3.0;
   return all;
 }
 
