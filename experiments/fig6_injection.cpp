@@ -26,16 +26,16 @@ std::vector<Case> all_cases() {
   };
   for (const int seed : {1, 2, 3}) add(concat("seed", seed)).seed = seed;
   add("seed1_stiv").contact = ContactModel::stiv;
-  add("seed1_plain").refine = Refine::none;
   add("seed1_wall64").wall_points = 64;
   add("seed1_dt0.01").time_step = 0.01;
   for (const char* separation : {"0.2", "0.5", "1", "2.5", "3"})
     add(concat("delta", separation, "h")).separation_over_h = *parse_number(separation);
-  for (const char* model : {"", "_stiv"}) {
-    Injection& near = add(concat("near0.2h", model));
+  for (const char* variant : {"", "_stiv", "_plain"}) {
+    Injection& near = add(concat("near0.2h", variant));
     near.outermost = 5.0 - injection_disc.a;
     near.least_distance_over_h = near.separation_over_h = 0.2;
-    if (*model) near.contact = ContactModel::stiv;
+    if (variant == std::string("_stiv")) near.contact = ContactModel::stiv;
+    if (variant == std::string("_plain")) near.refine = Refine::none;
   }
   for (const char* step : {"0.02", "0.04", "0.08"}) {
     Injection& free = add(concat("free_dt", step));
@@ -63,6 +63,7 @@ class Log {
         smallest = std::min(smallest, gap(record.bodies[i], record.bodies[j]).value);
       }
     to_ring_ = std::min(to_ring_, to_ring), between_ = std::min(between_, between);
+    if (record.step == 0) mark_contacts(record);
     const long contacts = record.outcome ? static_cast<long>(record.outcome->contacts.size()) : 0;
     if (next_ < snapshot_times.size() && record.time > snapshot_times[next_] - 1e-9) {
       take_snapshot(record);
@@ -72,8 +73,8 @@ class Log {
     steps_.push_back({record.time, static_cast<double>(contacts), record.min_gap / h, to_ring / h, between / h,
                       record.outcome ? record.outcome->gmres_iterations : 0.0,
                       record.outcome ? record.outcome->ncp_iterations : 0.0});
-    std::fill(in_contact_.begin(), in_contact_.end(), false);
-    if (record.outcome) add_contacts(record);
+    mark_contacts(record);
+    if (record.outcome) add_outcome(*record.outcome, record.time);
   }
 
   void write(const std::string& name, const Results& results) const {
@@ -91,7 +92,15 @@ class Log {
   }
 
  private:
-  // in_contact: in the step that led here; forces: of the step from here.
+  void mark_contacts(const StepRecord& record) {
+    std::fill(in_contact_.begin(), in_contact_.end(), false);
+    if (!record.outcome) return;
+    for (const ActiveContact& c : record.outcome->contacts)
+      for (const int body : {c.constraint.a, c.constraint.b})
+        if (body != container_index) in_contact_[body] = ever_in_contact_[body] = true;
+  }
+
+  // in_contact: in the step that led here, at the start in the first one; forces: of the step from here.
   void take_snapshot(const StepRecord& record) {
     double touching = 0.0;
     for (std::size_t i = 0; i < record.bodies.size(); ++i) {
@@ -105,19 +114,13 @@ class Log {
     touching_.push_back({concat("in_contact_at_", snapshot_times[next_]), touching});
   }
 
-  void add_contacts(const StepRecord& record) {
-    const StepOutcome& outcome = *record.outcome;
-    for (const ActiveContact& c : outcome.contacts)
-      for (const int body : {c.constraint.a, c.constraint.b}) {
-        if (body == container_index) continue;
-        in_contact_[body] = ever_in_contact_[body] = true;
-        largest_force_ = std::max(largest_force_, std::abs(outcome.contact_wrench[body].force));
-      }
+  void add_outcome(const StepOutcome& outcome, double time) {
+    for (const Wrench& w : outcome.contact_wrench) largest_force_ = std::max(largest_force_, std::abs(w.force));
     largest_ncp_ = std::max<double>(largest_ncp_, outcome.ncp_iterations);
     gmres_ += outcome.gmres_iterations;
     if (outcome.contacts.empty()) return;
-    if (std::isnan(first_contact_)) first_contact_ = record.time;
-    last_contact_ = record.time + outcome.dt;
+    if (std::isnan(first_contact_)) first_contact_ = time;
+    last_contact_ = time + outcome.dt;
   }
 
   Quantities summary() const {

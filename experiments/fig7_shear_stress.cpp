@@ -71,6 +71,9 @@ std::vector<GridPoint> flow_of(const Frame& frame, double driving, Contacts cont
   return grid;
 }
 
+// Of the driving alone, u = Q/(2 pi) x/|x|^2 with Q = pi.
+double source_shear_stress(Complex x) { return -2.0 * x.real() * x.imag() / (std::norm(x) * std::norm(x)); }
+
 void run_case(const std::string& name, const Results& results) {
   const auto [run, contacts] = parse(name);
   const Table snapshots = read_csv(results.of("fig6_injection").path(run + "_snapshots"));
@@ -80,17 +83,19 @@ void run_case(const std::string& name, const Results& results) {
     double largest = 0.0;
     for (int i = 0; i < free_count; ++i) largest = std::max(largest, std::abs(frame.contact[i].force));
     std::vector<std::vector<double>> grid;
-    std::vector<double> fluid, fluid_near;
+    std::vector<double> fluid, fluid_near, source;
     for (const GridPoint& point : flow_of(frame, time < Injection{}.reverse_at ? 1.0 : -1.0, contacts)) {
       const double value = point.inside ? std::nan("") : std::log10(std::abs(stress(point.flow).xy));
       grid.push_back({point.x.real(), point.x.imag(), value, point.inside ? 1.0 : 0.0});
       if (point.inside) continue;
       fluid.push_back(value);
+      source.push_back(std::log10(std::abs(source_shear_stress(point.x))));
       if (std::abs(point.x.real()) <= near && std::abs(point.x.imag()) <= near) fluid_near.push_back(value);
     }
     results.write(concat(name, "_t", time), {"x", "y", "log10_abs_sigma_xy", "inside"}, grid, {{"time", format_number(time)}});
     row.push_back({concat("median_at_", time), median(fluid)});
     row.push_back({concat("median_near_at_", time), median(fluid_near)});
+    row.push_back({concat("median_of_source_at_", time), median(source)});
     row.push_back({concat("largest_contact_force_at_", time), largest});
   }
   results.write(name, row);
