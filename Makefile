@@ -124,7 +124,7 @@ TG_CONTINUED       = global_full_dt0.01 global_self_dt0.01 local_start_dt0.025 l
 TG_FREE            = $(foreach p,32 64,$(foreach t,0.0025 0.01 0.025,free_points$(p)_dt$(t))) \
                        $(foreach t,0.0025 0.01 0.025,free_points32_dt$(t)_near)
 TG_ITERATIONS      = $(foreach k,none block pair,cold_$(k) $(foreach t,1e-6 1e-8,extrapolated_$(k)_$(t))) points
-INJECTION_CASES    = seed1_dt0.01 seed1 seed1_stiv seed2 seed3 seed1_wall64 near0.2h near0.2h_stiv near0.2h_plain \
+INJECTION_CASES    = seed1_dt0.01 seed1 seed1_stiv seed2 seed3 seed1_wall64 near1h near0.5h near0.2h near0.2h_stiv near0.2h_plain \
                        $(foreach d,3 2.5 1 0.5 0.2,delta$(d)h) $(foreach t,0.02 0.04 0.08,free_dt$(t)) undisturbed quick
 STRESS_RUNS        = seed1 seed1_stiv delta2.5h
 TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)

@@ -1,6 +1,6 @@
 // Figures 5 and 6: where the discs of section 4.3 go, and how far from their starts they come back.
 // Cases: seed1 to seed3, random starts; _stiv: interference volumes; _plain: 32 nodes at equal steps, without clusters
-// near contacts; _wall64: fewer nodes on the walls; delta*h: seed 1 with other separations; near0.2h: starts up to the
+// near contacts; _wall64: fewer nodes on the walls; delta*h: seed 1 with other separations; near*h: starts up to the
 // ring; free_dt*: no contact, other steps; undisturbed: a lone disc; quick: only to t = 1.
 
 #include "experiment.hpp"
@@ -30,13 +30,15 @@ std::vector<Case> all_cases() {
   add("seed1_dt0.01").time_step = 0.01;
   for (const char* separation : {"0.2", "0.5", "1", "2.5", "3"})
     add(concat("delta", separation, "h")).separation_over_h = *parse_number(separation);
-  for (const char* variant : {"", "_stiv", "_plain"}) {
-    Injection& near = add(concat("near0.2h", variant));
+  const auto add_near = [&](const std::string& name, double separation) -> Injection& {
+    Injection& near = add(name);
     near.outermost = 5.0 - injection_disc.a;
-    near.least_distance_over_h = near.separation_over_h = 0.2;
-    if (variant == std::string("_stiv")) near.contact = ContactModel::stiv;
-    if (variant == std::string("_plain")) near.refine = Refine::none;
-  }
+    near.least_distance_over_h = near.separation_over_h = separation;
+    return near;
+  };
+  add_near("near0.2h", 0.2), add_near("near0.5h", 0.5), add_near("near1h", 1.0);
+  add_near("near0.2h_stiv", 0.2).contact = ContactModel::stiv;
+  add_near("near0.2h_plain", 0.2).refine = Refine::none;
   for (const char* step : {"0.02", "0.04", "0.08"}) {
     Injection& free = add(concat("free_dt", step));
     free.contact = ContactModel::none;
