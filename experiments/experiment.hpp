@@ -55,6 +55,9 @@ class Results {
     write(name, header, {row}, parameters);
   }
 
+  // Of another experiment in the same root.
+  Results of(const std::string& experiment) const { return {folder_.parent_path(), experiment}; }
+
   // A number that a case has written in its only row.
   double quantity(const std::string& name, const std::string& column) const {
     const Table table = read_csv(path(name));

@@ -9,11 +9,6 @@ namespace stokes {
 
 namespace {
 
-struct Square {
-  Complex corner;  // lower left
-  double side;
-};
-
 Square square_around(const Suspension& bodies) {
   if (bodies.container) {
     const double r = bodies.container->radius;
@@ -41,8 +36,8 @@ bool in_fluid(const Suspension& bodies, Complex x) {
 
 }  // namespace
 
-void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
-                  double driving, const std::vector<Wrench>& contact, int points) {
+std::vector<GridPoint> flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
+                                    const std::vector<Wrench>& contact, const Square& square, int points) {
   std::vector<Wrench> wrenches;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Wrench more = contact.empty() ? Wrench{} : contact[i];
@@ -56,26 +51,33 @@ void write_fields(const std::filesystem::path& path, const Suspension& bodies, c
   const BackgroundFlow flow{options.flow.kind, driving * options.flow.rate, driving};
   const StokesSolution solution = system.solve(flow, wrenches);
 
-  const Square square = square_around(bodies);
-  std::vector<Complex> grid, fluid;
+  std::vector<GridPoint> grid;
+  std::vector<Complex> fluid;
   for (int j = 0; j < points; ++j)
     for (int i = 0; i < points; ++i) {
-      grid.push_back(square.corner + square.side / (points - 1) * Complex(i, j));
-      if (in_fluid(bodies, grid.back())) fluid.push_back(grid.back());
+      const Complex x = square.corner + square.side / (points - 1) * Complex(i, j);
+      grid.push_back({x, !in_fluid(bodies, x), {}});
+      if (!grid.back().inside) fluid.push_back(x);
     }
   const std::vector<PointFlow> flows = system.flow(fluid, solution.density, flow, wrenches);
-  std::string text = "x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside\n";
   std::size_t next = 0;
-  for (const Complex x : grid) {
-    const bool outside = next < fluid.size() && fluid[next] == x;
-    std::vector<double> row{x.real(), x.imag()};
-    if (outside) {
-      const PointFlow& f = flows[next++];
-      const Stress s = stress(f);
-      for (double value : {f.velocity.real(), f.velocity.imag(), f.pressure, s.xx, s.xy, s.yy, 0.0}) row.push_back(value);
-    } else {
+  for (GridPoint& point : grid)
+    if (!point.inside) point.flow = flows[next++];
+  return grid;
+}
+
+void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
+                  double driving, const std::vector<Wrench>& contact, int points) {
+  std::string text = "x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside\n";
+  for (const GridPoint& point : flow_on_grid(bodies, options, driving, contact, square_around(bodies), points)) {
+    std::vector<double> row{point.x.real(), point.x.imag()};
+    if (point.inside) {
       row.resize(8, std::nan(""));
       row.push_back(1.0);
+    } else {
+      const PointFlow& f = point.flow;
+      const Stress s = stress(f);
+      for (double value : {f.velocity.real(), f.velocity.imag(), f.pressure, s.xx, s.xy, s.yy, 0.0}) row.push_back(value);
     }
     std::vector<std::string> fields;
     for (double value : row) fields.push_back(format_number(value));

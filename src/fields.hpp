@@ -1,4 +1,4 @@
-// The flow of a suspension on a grid of points, as CSV.
+// The flow of a suspension on a grid of points, and as CSV.
 #pragma once
 
 #include <filesystem>
@@ -7,13 +7,29 @@
 
 namespace stokes {
 
+struct Square {
+  Complex corner;  // lower left
+  double side;
+};
+
+struct GridPoint {
+  Complex x;
+  bool inside;     // in a body or beyond the container, where there is no flow
+  PointFlow flow;
+};
+
 // Solves for the flow at the poses of `bodies`, everything that drives it multiplied by `driving` and `contact`
-// forces and torques on the bodies (one each; empty: none), and writes it at points x points points of the square
-// around the container or of the smallest square around the bodies with a body's length to spare:
+// forces and torques on the bodies (one each; empty: none), and evaluates it at points x points points of the
+// square, its sides included, row by row from below. The pressure of a bounded flow has a free constant.
+// NumericalError when GMRES fails.
+std::vector<GridPoint> flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
+                                    const std::vector<Wrench>& contact, const Square& square, int points);
+
+// Writes the flow on the square around the container or on the smallest square around the bodies with a body's length
+// to spare:
 //   x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside
-// row by row from below; inside = 1 in a body and beyond the container, where the rest is nan. The pressure of a
-// bounded flow has a free constant. A function of its arguments alone. NumericalError when GMRES fails or on a
-// write error.
+// inside is 1 or 0, and all but x and y is nan where it is 1. A function of its arguments alone. Errors as above, and
+// NumericalError on a write error.
 void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
                   double driving, const std::vector<Wrench>& contact, int points);
 

@@ -1,11 +1,33 @@
-// simulate between walls: torques in steps.csv and the flow on a grid.
+// The flow on a grid, and simulate between walls: torques in steps.csv and the flow on a grid.
 #include <doctest/doctest.h>
 
 #include <cmath>
 
+#include "annulus.hpp"
+#include "fields.hpp"
 #include "program.hpp"
 
 using namespace stokes;
+
+TEST_CASE("flow_on_grid covers its square row by row and draws back what the walls of an annulus inject") {
+  Annulus annulus{0.5, 10.0, 128};
+  annulus.inner_surface.source = annulus.outer_surface.source = pi;
+  StepperOptions options;
+  options.flow.kind = FlowKind::none;
+  const std::vector<GridPoint> grid = flow_on_grid(between_walls({}, annulus), options, -1.0, {}, {{-1.0, -2.0}, 12.0}, 25);
+  REQUIRE(grid.size() == 25 * 25);
+  CHECK(grid.front().x == Complex(-1.0, -2.0));
+  CHECK(grid[1].x == Complex(-0.5, -2.0));
+  CHECK(grid.back().x == Complex(11.0, 10.0));
+  for (const GridPoint& point : grid) {
+    const double r2 = std::norm(point.x);
+    if (std::abs(std::sqrt(r2) - 0.5) < 1e-9 || std::abs(std::sqrt(r2) - 10.0) < 1e-9) continue;  // on a wall
+    CHECK(point.inside == (r2 < 0.25 || r2 > 100.0));
+    if (point.inside) continue;
+    CHECK(std::abs(point.flow.velocity + 0.5 * point.x / r2) < 1e-9);
+    CHECK(std::abs(stress(point.flow).xy - 2.0 * point.x.real() * point.x.imag() / (r2 * r2)) < 1e-8);
+  }
+}
 
 TEST_CASE("simulate writes the Couette flow on a grid and balanced wall torques, the same for any number of threads") {
   const Workspace here(

@@ -1,0 +1,64 @@
+// Section 4.3: fluid is injected through both walls of an annulus until t = 4 and drawn back until t = 8, past 50 free
+// discs and a ring of 41 fixed ones.
+#pragma once
+
+#include "packing.hpp"
+#include "simulation.hpp"
+
+namespace stokes {
+
+inline constexpr Shape injection_disc{0.25, 0.25};
+inline constexpr int injection_points = 32;
+inline constexpr int free_count = 50, ring_count = 41;  // bodies 0 to 49, then 50 to 90; the inner wall is the last
+
+// h of the paper, which lengths are given in: also where a run takes other points.
+inline double injection_spacing() { return injection_disc.perimeter() / injection_points; }
+
+struct Injection {
+  std::uint64_t seed = 1;
+  // Of the free discs at the start, from each other and from the ring.
+  double least_distance_over_h = 3.0;
+  double outermost = 4.5;  // no part of a free disc starts beyond
+  double separation_over_h = 2.0;
+  ContactModel contact = ContactModel::gap;
+  Refine refine = Refine::near;
+  double time_step = 0.02, reverse_at = 4.0, end_time = 8.0;
+  int wall_points = 128;
+};
+
+inline Annulus injection_annulus(const Injection& parameters) {
+  Annulus annulus{0.5, 10.0, parameters.wall_points};
+  annulus.inner_surface.source = annulus.outer_surface.source = pi;
+  return annulus;
+}
+
+inline Suspension injection_bodies(const Injection& parameters) {
+  const Body fixed{injection_disc, {}, 0.0, 0.0, true};
+  Suspension fixed_ones;
+  for (const Body& body : ring(fixed, ring_count, 5.0)) fixed_ones.push_back(body);
+  RandomPlacement placement{.shape = injection_disc, .count = free_count};
+  placement.inner_radius = 1.0 + injection_disc.a, placement.outer_radius = parameters.outermost - injection_disc.a;
+  placement.density = RadialDensity::uniform_area;
+  placement.min_distance = parameters.least_distance_over_h * injection_spacing();
+  placement.seed = parameters.seed;
+  Suspension bodies;
+  for (const Body& body : random_bodies(placement, fixed_ones)) bodies.push_back(body);
+  bodies.insert(bodies.end(), fixed_ones.begin(), fixed_ones.end());
+  return between_walls(std::move(bodies), injection_annulus(parameters));
+}
+
+inline SimulationOptions injection_options(const Injection& parameters) {
+  SimulationOptions options;
+  options.stepper.flow.kind = FlowKind::none;
+  options.stepper.points_per_body = injection_points;
+  options.stepper.refine = parameters.refine;
+  options.stepper.stokes.gmres_tolerance = 1e-6;
+  options.stepper.contact = parameters.contact;
+  options.stepper.separation = parameters.separation_over_h * injection_spacing();
+  options.time_step = parameters.time_step;
+  options.end_time = parameters.end_time;
+  options.reverse_at = parameters.reverse_at;
+  return options;
+}
+
+}  // namespace stokes
