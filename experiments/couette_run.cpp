@@ -40,7 +40,7 @@ Case case_of(const CouetteCase& chosen, const std::filesystem::path& folder) {
                          {"contact", chosen.variant == "stiv" ? "stiv" : "gap"},
                          {"lcp_matrix", "near"},
                          {"refine", "near"},
-                         {"gmres_tolerance", "1e-6"},
+                         {"gmres_tolerance", "1e-5"},
                          {"output_every", "20"},
                          {"output", folder.string()}};
   std::string text;

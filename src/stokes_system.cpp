@@ -161,7 +161,7 @@ Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int s
   std::vector<Complex> z;
   for (const int k : rows) z.push_back(s.local(t.node(k)));
   Matrix block = real_matrix(trapezoid_rows(s.shape->curve, s.shape->side(), z, columns), s.axis * std::conj(t.axis));
-  const auto add = [&](Eigen::Index r, const auto& whole_row) {
+  const auto add = [&](Eigen::Index r, const Eigen::Ref<const Matrix>& whole_row) {
     for (std::size_t c = 0; c < columns.size(); ++c)
       block.block<2, 2>(2 * r, 2 * static_cast<Eigen::Index>(c)) += whole_row.middleCols(2 * columns[c], 2);
   };
@@ -174,7 +174,7 @@ Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int s
   if (s.shape->kind == BoundaryKind::fixed) {
     const auto f = std::lower_bound(fixed_.begin(), fixed_.end(), source) - fixed_.begin();
     for (std::size_t r = 0; r < rows.size(); ++r)
-      add(static_cast<Eigen::Index>(r), completion_.block(2 * (t.offset + rows[r]), 3 * f, 2, 3) * s.shape->closure);
+      add(static_cast<Eigen::Index>(r), Matrix(completion_.block(2 * (t.offset + rows[r]), 3 * f, 2, 3) * s.shape->closure));
   }
   return block;
 }
