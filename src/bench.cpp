@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <numeric>
+#include <optional>
 #include <string>
 
 #include "direct_sum.hpp"
+#include "gmres.hpp"
 #include "stepper.hpp"
 #include "text.hpp"
 #include "threads.hpp"
@@ -68,6 +71,46 @@ void bench_step(int side, int points) {
   report("step_gmres_iterations", static_cast<long>(side) * side * points, iterations, "1");
 }
 
+// One iteration of GMRES by part, for free discs on a square lattice, a tenth of a radius apart, tolerance 1e-6:
+// multipole sum, the rest of the operator (near corrections, diagonal), the preconditioner, and the orthogonalisation
+// in the mean over 20 iterations.
+void bench_iteration(int side, int points) {
+  Suspension discs;
+  for (int i = 0; i < side; ++i)
+    for (int j = 0; j < side; ++j) discs.push_back({{1.0, 1.0}, {{2.1 * i, 2.1 * j}, 0.0}, {}, {}});
+  const long nodes = static_cast<long>(side) * side * points;
+  ShapeCache shapes;
+  StokesOptions options;
+  options.gmres_tolerance = 1e-6;
+  options.summation = Summation::fmm;
+  std::optional<StokesSystem> system;
+  report("setup", nodes, median_seconds([&] { system.emplace(discs, points, shapes, options); }), "seconds");
+  Vector in = Vector::LinSpaced(2 * nodes, -1.0, 1.0), out(2 * nodes);
+  BoundarySet set(system->boundaries(), [&] {
+    std::vector<int> all(discs.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }());
+  const FmmPlan plan(set.nodes, {0.1 * options.gmres_tolerance});
+  const ComplexVector density = ComplexVector::Ones(nodes);
+  SourceStrengths strengths;
+  strengths.weighted_normal = &set.weighted_normal, strengths.density = &density;
+  FlowFields fields;
+  const double sum = median_seconds([&] { plan.evaluate(strengths, FlowOutput::velocity, fields); });
+  const double whole = median_seconds([&] { system->apply(in, out); });
+  const double preconditioner = median_seconds([&] { system->precondition(in, out); });
+  constexpr int iterations = 20;
+  const Vector spectrum = Vector::LinSpaced(2 * nodes, 1.0, 1e6);
+  const double orthogonalisation = median_seconds([&] {
+    gmres([&](const Vector& v, Vector& w) { w = spectrum.cwiseProduct(v); }, [](const Vector& v, Vector& w) { w = v; }, in, {},
+          {.tolerance = 1e-15, .max_iterations = iterations});
+  });
+  report("iteration_multipole_sum", nodes, sum, "seconds");
+  report("iteration_rest_of_operator", nodes, whole - sum, "seconds");
+  report("iteration_preconditioner", nodes, preconditioner, "seconds");
+  report("iteration_orthogonalisation", nodes, orthogonalisation / iterations, "seconds");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -84,4 +127,5 @@ int main(int argc, char** argv) {
   for (int points : {64, 1024, 4096}) bench_direct_sum(points);
   bench_step(2, 32);
   bench_step(7, 32);
+  bench_iteration(71, 32);
 }

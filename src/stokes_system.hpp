@@ -74,6 +74,10 @@ class StokesSystem {
   StokesSolution solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& guess = {}, double scale = 0.0) const;
 
+  // The operator and the right preconditioner that GMRES works with: reals of all densities, interleaved, in and out.
+  void apply(const Vector& in, Vector& out) const { apply(all_, in, out); }
+  void precondition(const Vector& in, Vector& out) const { preconditioner_->apply(all_, in, out); }
+
   // One block-Jacobi sweep of the same equations: each boundary's own block is solved for, the double layers of
   // the others are taken from `lagged` (a density of this system; empty: zero). Locally implicit stepping.
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
