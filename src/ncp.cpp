@@ -75,6 +75,9 @@ class Iteration {
       tracked.push_back({c.constraint.a, c.constraint.b});
       c.constraint.value = 0.0;  // a contact that is no longer found has opened
     }
+    // What the first answer starts from holds the forces of earlier contacts, which take their columns to be taken back.
+    if (candidates_.empty())
+      for (const EarlierContact::Multiplier& m : mobility_.earlier.multipliers) tracked.push_back({m.a, m.b});
     tracked.erase(std::unique(tracked.begin(), tracked.end()), tracked.end());
     for (const ContactConstraint& found : constraints_(poses_, tracked)) {
       const auto place = std::lower_bound(candidates_.begin(), candidates_.end(), identity(found),
