@@ -137,6 +137,21 @@ Suspension random_drop(std::mt19937_64& generator, int count, double side, doubl
   return bodies;
 }
 
+// A disc pushed against the outer cylinder, and 49 ellipses at random places nearby.
+Suspension crowd_at_wall(double separation) {
+  std::vector<Body> bodies{body_at({0.375, 0.375}, 9.625 - separation, 0.0, 600.0)};
+  const Container wall = *between_cylinders({}).container;
+  std::mt19937_64 generator(3);
+  while (bodies.size() < 50) {
+    const Complex centre = std::polar(5.5 + 4.0 * uniform(generator), 0.8 * uniform(generator) - 0.4);
+    const Body next = body_at({0.375, 0.125}, centre, 2.0 * pi * uniform(generator));
+    if (gap(next, wall).value >= separation &&
+        std::all_of(bodies.begin(), bodies.end(), [&](const Body& other) { return gap(next, other).value >= separation; }))
+      bodies.push_back(next);
+  }
+  return between_cylinders(bodies);
+}
+
 // Discs in a row that touch but for the separation, pressed together from both ends.
 Suspension pressed_row(int count, double separation, double push) {
   Suspension row;
@@ -178,7 +193,7 @@ TEST_CASE("a body beyond reach stays at rest, and leaving it out changes the pai
 TEST_CASE("dense drops in extension: steps with nearby mobilities are those with full ones") {
   for (const int seed : {11, 12}) {
     std::mt19937_64 generator(seed);
-    StepperOptions options = accurate_steps(48, 0.1);
+    StepperOptions options = accurate_steps(32, 0.1);
     options.flow.kind = FlowKind::extension;
     options.refine = Refine::near;
     options.stokes.gmres_tolerance = 1e-8;
@@ -190,20 +205,10 @@ TEST_CASE("dense drops in extension: steps with nearby mobilities are those with
 
 TEST_CASE("in an annulus, one body on its outer wall: the same steps, in at most three solves on average") {
   const double separation = 0.0245;
-  std::vector<Body> bodies{body_at({0.375, 0.375}, 9.625 - separation, 0.0, 600.0)};  // pushed against the wall
-  const Container wall = *between_cylinders({}).container;
-  std::mt19937_64 generator(3);
-  while (bodies.size() < 50) {
-    const Complex centre = std::polar(5.5 + 4.0 * uniform(generator), 0.8 * uniform(generator) - 0.4);
-    const Body next = body_at({0.375, 0.125}, centre, 2.0 * pi * uniform(generator));
-    if (gap(next, wall).value >= separation &&
-        std::all_of(bodies.begin(), bodies.end(), [&](const Body& other) { return gap(next, other).value >= separation; }))
-      bodies.push_back(next);
-  }
   StepperOptions options = accurate_steps(32, separation);
   options.refine = Refine::near;
   options.stokes.gmres_tolerance = 1e-8;
-  const Comparison c = compare_steps(between_cylinders(bodies), options, 0.01, 5);
+  const Comparison c = compare_steps(crowd_at_wall(separation), options, 0.01, 5);
   check(c);
   CHECK(c.wall_contacts >= c.steps);
   CHECK(c.contacts > c.wall_contacts);
@@ -238,4 +243,73 @@ TEST_CASE("where nearby mobilities do not lead to a solution the step is made wi
     for (int i = 0; i < count; ++i) CHECK(near.bodies()[i].pose.centre == full.bodies()[i].pose.centre);
     CHECK(a.contacts[0].multiplier == b.contacts[0].multiplier);
   }
+}
+
+// Two discs driven together, moved by forces as if alone; one number stands for the density.
+TEST_CASE("the first answer to contact forces starts from the earlier one, changed as the forces changed") {
+  const Suspension discs{body_at({0.5, 0.5}, {-0.6, 0.0}), body_at({0.5, 0.5}, {0.6, 0.0})};
+  const Response contact_free{{{{1.0, 0.0}, 0.0}, {{-1.0, 0.0}, 0.0}}, ComplexVector::Zero(1)};
+  const double separation = 0.1, dt = 0.1;
+  const GapCollector collector(discs, separation);
+  const auto constraints = [&](const auto& trial, const auto& tracked) { return collector.collect(trial, tracked); };
+  const auto answer = [](const std::vector<Wrench>& w, double mobility, double density) {
+    return Response{{{mobility * w[0].force, 0.0}, {mobility * w[1].force, 0.0}},
+                    ComplexVector::Constant(1, density * w[0].force)};
+  };
+  for (const double change : {0.0, 0.3}) {
+    std::vector<Complex> guesses;
+    ContactMobility mobility;
+    mobility.column = [&](const auto& w) { return answer(w, 0.9, 3.0); };  // nearly the one that moves the bodies
+    mobility.response = [&](const auto& w, const ComplexVector& guess) {
+      guesses.push_back(guess[0]);
+      return answer(w, 1.0, 2.0);
+    };
+    const auto resolve = [&] { return resolve_contacts(discs, contact_free, dt, constraints, mobility, {}); };
+    const NcpResult fresh = resolve();
+    REQUIRE(fresh.solved);
+    REQUIRE(fresh.contacts.size() == 1);
+    // The gap of 0.2 would be 0; a force f on either disc gives back 2 dt f.
+    CHECK(std::abs(fresh.contacts[0].multiplier - 0.5) < 1e-4);
+    const double first = 0.05 / (0.9 * dt);  // multiplier of the first iterate
+    CHECK(std::abs(guesses[0] + 3.0 * first) < 1e-12);
+
+    guesses.clear();
+    const double earlier = 0.5 - change;
+    mobility.earlier = {{{0, 1, 0, earlier}}, ComplexVector::Constant(1, 7.0)};
+    const NcpResult again = resolve();
+    REQUIRE(again.solved);
+    CHECK(std::abs(guesses[0] - (7.0 - 3.0 * (first - earlier))) < 1e-12);
+    // Neither where the second one starts, from the first answer, nor the result is touched by it.
+    REQUIRE(guesses.size() > 1);
+    const double correction = (0.5 - first) / 0.9;
+    CHECK(std::abs(guesses[1] + 2.0 * first + 3.0 * correction) < 1e-12);
+    CHECK(again.contacts[0].multiplier == fresh.contacts[0].multiplier);
+    CHECK(again.iterations == fresh.iterations);
+  }
+}
+
+TEST_CASE("what a step leaves to the next one saves GMRES iterations and does not change it") {
+  StepperOptions options = accurate_steps(32, 0.0245);
+  options.refine = Refine::near;
+  options.stokes.gmres_tolerance = 1e-9;
+  options.lcp_matrix = LcpMatrix::near;
+  Stepper stepper(crowd_at_wall(options.separation), options);
+  for (int k = 0; k < 2; ++k) REQUIRE(stepper.attempt(0.003, 1.0, {}).accepted);
+  REQUIRE(stepper.memory().multipliers.size() > 0);
+  CHECK(stepper.memory().contacts.empty());
+  StepperMemory without_contacts = stepper.memory();
+  without_contacts.contact = {}, without_contacts.multipliers.clear();
+  std::vector<Pose> poses;
+  for (const Body& body : stepper.bodies()) poses.push_back(body.pose);
+  Stepper forgetful(stepper.bodies(), options);
+  forgetful.restore(poses, without_contacts);
+  const StepOutcome a = stepper.attempt(0.003, 1.0, {}), b = forgetful.attempt(0.003, 1.0, {});
+  REQUIRE(a.accepted);
+  REQUIRE(b.accepted);
+  REQUIRE(a.contacts.size() == b.contacts.size());
+  MESSAGE(a.contacts.size(), " contacts, ", a.ncp_iterations, " and ", b.ncp_iterations, " iterations; ", a.gmres_iterations,
+          " of GMRES against ", b.gmres_iterations, ", of which ", a.background_iterations, " without contact forces");
+  CHECK(a.gmres_iterations < b.gmres_iterations);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    CHECK(std::abs(stepper.bodies()[i].pose.centre - forgetful.bodies()[i].pose.centre) < 1e-7);
 }

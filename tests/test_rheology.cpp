@@ -208,6 +208,7 @@ TEST_CASE("with contacts, nothing changes when all turns about the axis, and bot
   CHECK(outcome.contacts.size() == 3);
   const double viscosity = effective_viscosity(bodies, outcome);
   CHECK(viscosity > 1.0);
+  CHECK(std::abs(effective_viscosity_outer(bodies, outcome) - viscosity) < 1e-8);
   const Suspension turned = turned_about_axis(bodies, 1.1);
   const StepOutcome after = one_step(turned, options);
   REQUIRE(after.accepted);
