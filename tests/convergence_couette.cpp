@@ -50,7 +50,8 @@ void check_convergence(const std::string& name, const std::vector<Body>& bodies)
   std::vector<double> errors;
   for (const int points : {16, 32, 64}) {
     const Differences d(solved(bodies, points, 4 * points), reference);
-    table += concat(points, "  ", 4 * points, "  ", d.velocity, "  ", d.omega, "  ", d.inner_torque, "  ", d.outer_torque, "\n");
+    table += concat(points, "  ", 4 * points, "  ", d.velocity, "  ", d.omega, "  ", d.inner_torque, "  ",
+                    d.outer_torque, "\n");
     errors.push_back(d.largest());
   }
   MESSAGE(table);
@@ -69,6 +70,7 @@ TEST_CASE("a disc between cylinders: velocities and torques at 64 points are tho
 TEST_CASE("five ellipses between cylinders: velocities and torques at 64 points are those at 128 to 1e-8") {
   std::vector<Body> ellipses;
   const double radii[] = {6.2, 6.9, 7.5, 8.1, 8.8}, angles[] = {0.4, 2.0, -0.6, 1.1, 2.7};
-  for (int k = 0; k < 5; ++k) ellipses.push_back(body_at({0.375, 0.125}, std::polar(radii[k], 0.2 + 0.35 * k), angles[k]));
+  for (int k = 0; k < 5; ++k)
+    ellipses.push_back(body_at({0.375, 0.125}, std::polar(radii[k], 0.2 + 0.35 * k), angles[k]));
   check_convergence("ellipses 3:1", ellipses);
 }

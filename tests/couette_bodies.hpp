@@ -1,6 +1,9 @@
 // Suspensions between cylinders of radii 5, at rest, and 10, rotating, that several tests share.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "annulus.hpp"
 #include "rheology.hpp"
 
@@ -56,6 +59,17 @@ inline StepperOptions accurate_steps(int points, double separation) {
 inline StepOutcome one_step(const Suspension& bodies, const StepperOptions& options, double dt = 1e-3,
                             double driving = 1.0) {
   return Stepper(bodies, options).attempt(dt, driving, {});
+}
+
+// Largest difference of velocities and angular velocities of the first bodies, over the largest of them.
+inline double velocity_difference(const std::vector<RigidVelocity>& u, const std::vector<RigidVelocity>& v,
+                                  std::size_t count) {
+  double error = 0.0, scale = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    error = std::max({error, std::abs(u[i].velocity - v[i].velocity), std::abs(u[i].omega - v[i].omega)});
+    scale = std::max({scale, std::abs(v[i].velocity), std::abs(v[i].omega)});
+  }
+  return error / scale;
 }
 
 }  // namespace stokes

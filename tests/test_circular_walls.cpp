@@ -36,15 +36,6 @@ std::vector<RigidVelocity> velocities(const Suspension& bodies) {
   return StokesSystem(bodies, 64, shapes, {1e-12}).solve({FlowKind::none, 1.0, 1.0}, {}).velocity;
 }
 
-double difference(const std::vector<RigidVelocity>& u, const std::vector<RigidVelocity>& v) {
-  double error = 0.0, scale = 0.0;
-  for (std::size_t i = 0; i < u.size(); ++i) {
-    error = std::max({error, std::abs(u[i].velocity - v[i].velocity), std::abs(u[i].omega - v[i].omega)});
-    scale = std::max(scale, std::abs(v[i].velocity));
-  }
-  return error / scale;
-}
-
 }  // namespace
 
 TEST_CASE("a circle's own equations are solved in closed form as by the dense block of an almost equal ellipse") {
@@ -100,7 +91,7 @@ TEST_CASE("where the walls are resolved the bodies' velocities do not depend on 
       Suspension turned = bodies;
       turned.container->angle += outer;
       turned.back().pose.angle += inner;
-      largest = std::max(largest, difference(velocities(turned), before));
+      largest = std::max(largest, velocity_difference(velocities(turned), before, before.size()));
     }
     errors.push_back(largest);
   }

@@ -34,16 +34,6 @@ std::vector<Wrench> parting(const Suspension& bodies) {
   return wrenches;
 }
 
-// Largest difference of velocities and angular velocities, over the largest velocity.
-double difference(const std::vector<RigidVelocity>& u, const std::vector<RigidVelocity>& v, std::size_t count) {
-  double error = 0.0, scale = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    error = std::max({error, std::abs(u[i].velocity - v[i].velocity), std::abs(u[i].omega - v[i].omega)});
-    scale = std::max({scale, std::abs(v[i].velocity), std::abs(v[i].omega)});
-  }
-  return error / scale;
-}
-
 struct Answers {
   StokesSolution full, nearby;
 };
@@ -57,10 +47,10 @@ Answers answers(const Suspension& bodies, double tolerance) {
 struct Comparison {
   int steps = 0, contacts = 0, wall_contacts = 0, solves = 0, full_solves = 0, iterations = 0;
   int with_full_columns = 0;  // steps
-  int firm_steps = 0;       // whose contact forces undo at least a fifth of the separation
-  double gap = 0.0;         // of the contacts, in units of the separation
-  double pose = 0.0;        // the same
-  double multiplier = 0.0;  // of firm steps, over the largest of the step
+  int firm_steps = 0;         // whose contact forces undo at least a fifth of the separation
+  double gap = 0.0;           // of the contacts, in units of the separation
+  double pose = 0.0;          // the same
+  double multiplier = 0.0;    // of firm steps, over the largest of the step
 };
 
 // By how much the bodies would come too close without contact forces.
@@ -112,7 +102,8 @@ Comparison compare_steps(const Suspension& start, StepperOptions options, double
   }
   MESSAGE(c.steps, " steps (", c.firm_steps, " firm), ", c.contacts, " contacts, ", c.wall_contacts, " at the wall; ",
           c.solves, " Stokes solves against ", c.full_solves, ", ", c.iterations, " iterations, ", c.with_full_columns,
-          " steps with full columns; differences: poses ", c.pose, ", gaps ", c.gap, " separations, multipliers ", c.multiplier);
+          " steps with full columns; differences: poses ", c.pose, ", gaps ", c.gap, " separations, multipliers ",
+          c.multiplier);
   return c;
 }
 
@@ -123,18 +114,6 @@ void check(const Comparison& c) {
   CHECK(c.pose < 4e-4);  // a body also moves along its contact
   CHECK(c.multiplier < 1e-3);
   CHECK(c.firm_steps > 0);
-}
-
-// Ellipses at random places in a square, apart by at least `least`.
-Suspension random_drop(std::mt19937_64& generator, int count, double side, double least) {
-  Suspension bodies;
-  while (static_cast<int>(bodies.size()) < count) {
-    const double a = 0.35 + 0.25 * uniform(generator), b = a * (0.45 + 0.55 * uniform(generator));
-    const Body next = body_at({a, b}, {side * uniform(generator), side * uniform(generator)}, 2.0 * pi * uniform(generator));
-    if (std::all_of(bodies.begin(), bodies.end(), [&](const Body& other) { return gap(next, other).value >= least; }))
-      bodies.push_back(next);
-  }
-  return bodies;
 }
 
 // A disc pushed against the outer cylinder, and 49 ellipses at random places nearby.
@@ -166,7 +145,7 @@ TEST_CASE("where all bodies are within reach the nearby answer is the full one, 
   for (const double tolerance : {1e-6, 1e-9}) {
     for (const std::vector<Body>& third : {std::vector<Body>{}, {body_at({0.5, 0.5}, {1.9, 0.5})}}) {
       const Answers a = answers(pair_and(third), tolerance);
-      const double error = difference(a.nearby.velocity, a.full.velocity, a.full.velocity.size());
+      const double error = velocity_difference(a.nearby.velocity, a.full.velocity, a.full.velocity.size());
       MESSAGE(a.full.velocity.size(), " bodies, tolerance ", tolerance, ": ", error);
       CHECK(error < 10.0 * tolerance);
       CHECK((a.nearby.density - a.full.density).norm() < 100.0 * tolerance * a.full.density.norm());
@@ -178,7 +157,7 @@ TEST_CASE("a body beyond reach stays at rest, and leaving it out changes the pai
   std::vector<double> errors;
   for (const double x : {4.5, 6.0, 12.0}) {
     const Answers a = answers(pair_and({body_at({1.0, 1.0}, {x, 0.5})}), 1e-9);
-    errors.push_back(difference(a.nearby.velocity, a.full.velocity, 2));
+    errors.push_back(velocity_difference(a.nearby.velocity, a.full.velocity, 2));
     CHECK(a.nearby.velocity[2].velocity == 0.0);
     CHECK(a.nearby.velocity[2].omega == 0.0);
     CHECK(std::abs(a.full.velocity[2].velocity) > 0.0);
@@ -191,13 +170,13 @@ TEST_CASE("a body beyond reach stays at rest, and leaving it out changes the pai
 }
 
 TEST_CASE("dense drops in extension: steps with nearby mobilities are those with full ones") {
-  for (const int seed : {11, 12}) {
+  for (const int seed : {11, 14}) {
     std::mt19937_64 generator(seed);
     StepperOptions options = accurate_steps(32, 0.1);
     options.flow.kind = FlowKind::extension;
     options.refine = Refine::near;
     options.stokes.gmres_tolerance = 1e-8;
-    const Comparison c = compare_steps(random_drop(generator, 30, 4.9, 0.1), options, 0.15, 4);
+    const Comparison c = compare_steps(random_drop(generator, 30, 4.8, 0.1), options, 0.2, 4);
     check(c);
     CHECK(c.contacts > 4 * c.steps);
   }

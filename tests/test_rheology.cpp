@@ -143,7 +143,8 @@ TEST_CASE("the outer cylinder's torque is the one that the stress carries throug
   double torque = 0.0;  // of the fluid outside on that inside
   for (int k = 0; k < count; ++k) {
     const Stress sigma = stress(flow[k]);
-    const Complex n = circle[k] / r, traction{sigma.xx * n.real() + sigma.xy * n.imag(), sigma.xy * n.real() + sigma.yy * n.imag()};
+    const Complex n = circle[k] / r;
+    const Complex traction(sigma.xx * n.real() + sigma.xy * n.imag(), sigma.xy * n.real() + sigma.yy * n.imag());
     torque += cross(circle[k], traction) * 2.0 * pi * r / count;
   }
   CHECK(std::abs(system.container_wrench(s.density, {}).torque / torque - 1.0) < 1e-9);
@@ -177,7 +178,8 @@ TEST_CASE("a body pressed on either wall has the contact stress of its force at 
       const Complex radial = std::polar(1.0, 2.2);
       Suspension bodies = between_cylinders({body_at(shape, 7.0 * radial, 2.7, (outer ? 4.0 : -4.0) * radial)});
       const auto contact = [&] { return outer ? gap(bodies[0], *bodies.container) : gap(bodies[0], bodies[1]); };
-      for (int k = 0; k < 30; ++k) bodies[0].pose.centre += (outer ? 1.0 : -1.0) * (contact().value - separation) * radial;
+      for (int k = 0; k < 30; ++k)
+        bodies[0].pose.centre += (outer ? 1.0 : -1.0) * (contact().value - separation) * radial;
       REQUIRE(std::abs(contact().value - separation) < 1e-12);
       StepperOptions options = accurate_steps(64, separation);
       options.refine = Refine::near;
@@ -214,7 +216,8 @@ TEST_CASE("with contacts, nothing changes when all turns about the axis, and bot
   REQUIRE(after.accepted);
   CHECK(std::abs(effective_viscosity(turned, after) - viscosity) < 1e-9);
   const ParticleStress a = particle_stress(bodies, outcome), b = particle_stress(turned, after);
-  const double scale = std::abs(a.contacts.shear) + std::abs(a.contacts.normal_difference) + std::abs(a.stresslets.shear);
+  const double scale =
+      std::abs(a.contacts.shear) + std::abs(a.contacts.normal_difference) + std::abs(a.stresslets.shear);
   check_equal(a.stresslets, b.stresslets, 1e-7 * scale);
   check_equal(a.contacts, b.contacts, 1e-7 * scale);
 
@@ -228,7 +231,6 @@ TEST_CASE("with contacts, nothing changes when all turns about the axis, and bot
   check_equal({-m.contacts.shear, m.contacts.normal_difference}, a.contacts, 1e-7 * scale);
 }
 
-// External forces that turn the suspension about the axis would be felt by one cylinder more than by the other.
 TEST_CASE("inner and outer viscosity agree with contacts, and flow driven backwards has the same viscosity") {
   const double separation = 0.02;
   std::vector<Body> crowd;
@@ -241,8 +243,8 @@ TEST_CASE("inner and outer viscosity agree with contacts, and flow driven backwa
   const StepOutcome outcome = one_step(bodies, options, 2e-3), back = one_step(bodies, options, 2e-3, -1.0);
   REQUIRE(outcome.accepted);
   REQUIRE(back.accepted);
-  MESSAGE(outcome.contacts.size(), " contacts, viscosity ", effective_viscosity(bodies, outcome), "; ", back.contacts.size(),
-          " contacts and ", effective_viscosity(bodies, back), " backwards");
+  MESSAGE(outcome.contacts.size(), " contacts, viscosity ", effective_viscosity(bodies, outcome), "; ",
+          back.contacts.size(), " contacts and ", effective_viscosity(bodies, back), " backwards");
   for (const StepOutcome* o : {&outcome, &back})
     CHECK(std::abs(effective_viscosity(bodies, *o) - effective_viscosity_outer(bodies, *o)) < 1e-8);
   CHECK(outcome.contacts.size() >= 3);
