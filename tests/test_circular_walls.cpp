@@ -28,7 +28,8 @@ Matrix right_hand_sides(int points, int columns) {
 // Bodies of which some are close to the walls, about as far as the walls' nodes are from each other.
 Suspension bodies_beside_walls(int wall_points) {
   return between_cylinders({body_at({0.375, 0.375}, {9.3, 0.0}), body_at({0.375, 0.125}, {0.0, 5.5}, 0.2),
-                            body_at({0.375, 0.125}, {-5.0, 6.0}, 1.0)}, wall_points);
+                            body_at({0.375, 0.125}, {-5.0, 6.0}, 1.0)},
+                           wall_points);
 }
 
 std::vector<RigidVelocity> velocities(const Suspension& bodies) {
