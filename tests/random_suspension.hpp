@@ -1,6 +1,7 @@
 // Suspensions that several tests share.
 #pragma once
 
+#include <algorithm>
 #include <random>
 
 #include "gap.hpp"
@@ -22,6 +23,20 @@ inline Suspension six_ellipses() {
     bool apart = true;
     for (const Body& other : bodies) apart = apart && gap(body, other).value >= 0.2;
     if (apart) bodies.push_back(body);
+  }
+  return bodies;
+}
+
+// Ellipses at gaps of at least `least`, packed as random drops into a square find room.
+inline Suspension random_drop(std::mt19937_64& generator, int count, double side, double least) {
+  Suspension bodies;
+  while (static_cast<int>(bodies.size()) < count) {
+    const double a = 0.35 + 0.25 * uniform(generator), b = a * (0.45 + 0.55 * uniform(generator));
+    const Complex centre(side * uniform(generator), side * uniform(generator));
+    const Body next{{a, b}, {centre, 2.0 * pi * uniform(generator)}, {}, {}};
+    const bool apart = std::all_of(bodies.begin(), bodies.end(),
+                                   [&](const Body& other) { return gap(next, other).value >= least; });
+    if (apart) bodies.push_back(next);
   }
   return bodies;
 }

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "container_gap.hpp"
+#include "couette_bodies.hpp"
 #include "curve.hpp"
 #include "gap.hpp"
 #include "refinement.hpp"
@@ -30,6 +32,18 @@ double normal_mobility(const Suspension& pair, const std::vector<Discretisation>
   const StokesSystem system(pair, nodes, shapes, {1e-10});
   const std::vector<RigidVelocity> u = system.solve({}, {{g.centre_a, g.angle_a}, {g.centre_b, g.angle_b}}).velocity;
   return dot(g.centre_a, u[0].velocity) + g.angle_a * u[0].omega + dot(g.centre_b, u[1].velocity) + g.angle_b * u[1].omega;
+}
+
+// An ellipse flat along the outer of two cylinders; and the rate of the gap for a unit force away from the wall.
+Suspension flat_along_wall(const Shape& shape, double distance) {
+  return between_cylinders({body_at(shape, 10.0 - distance - shape.b, pi / 2)}, 1024);
+}
+double wall_mobility(const Suspension& bodies, const std::vector<Discretisation>& nodes) {
+  const GapGradient g = gradient(gap(bodies[0], *bodies.container), bodies[0].pose);
+  ShapeCache shapes;
+  const StokesSystem system(bodies, nodes, shapes, {1e-10});
+  const RigidVelocity u = system.solve({}, {{g.centre_a, g.angle_a}, {}}).velocity[0];
+  return dot(g.centre_a, u.velocity) + g.angle_a * u.omega;
 }
 
 // One disc and the six around it.
@@ -87,6 +101,31 @@ TEST_CASE("tip on flank, 32 nodes and clusters give the normal mobility of 512 n
       missed = std::max(missed, std::abs(normal_mobility(pair, equal_nodes(pair, 128)) / reference - 1.0));
     }
   CHECK(missed > 0.4);
+}
+
+TEST_CASE("6:1 flat along a wall: with 32 nodes a force towards the wall moves it away, and refined nodes mend that") {
+  const Suspension slender = flat_along_wall({0.375, 0.0625}, 0.0247);
+  const double reference = wall_mobility(slender, equal_nodes(slender, 256));
+  CHECK(std::abs(wall_mobility(slender, equal_nodes(slender, 512)) / reference - 1.0) < 1e-6);
+  const std::vector<Discretisation> nodes = refined_nodes(slender, 32, 1.0);
+  const double equal = wall_mobility(slender, equal_nodes(slender, 32)), refined = wall_mobility(slender, nodes);
+  MESSAGE("mobility ", reference, "; 32 nodes ", equal, ", 64 nodes ", wall_mobility(slender, equal_nodes(slender, 64)),
+          ", refined to ", nodes[0].size(), " ", refined);
+  CHECK(reference > 0.0);
+  CHECK(equal < 0.0);
+  CHECK(std::abs(refined / reference - 1.0) < 0.01);
+  CHECK(nodes[0].points > 32);
+  CHECK(nodes[0].size() <= 128);
+  CHECK(nodes[1] == Discretisation{1024, {}});
+}
+
+TEST_CASE("3:1 flat along the same wall keeps its 32 nodes, and they give its mobility to 1 %") {
+  const Suspension bodies = flat_along_wall({0.375, 0.125}, 0.0247);
+  const std::vector<Discretisation> nodes = refined_nodes(bodies, 32, 1.0);
+  const double reference = wall_mobility(bodies, equal_nodes(bodies, 256)), found = wall_mobility(bodies, nodes);
+  MESSAGE("mobility ", reference, ", with ", nodes[0].size(), " nodes ", found);
+  CHECK(nodes == equal_nodes(bodies, 32));
+  CHECK(std::abs(found / reference - 1.0) < 0.01);
 }
 
 TEST_CASE("bodies far from others, and walls, keep their nodes") {

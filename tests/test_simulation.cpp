@@ -95,20 +95,6 @@ struct OneThread {
   ~OneThread() { set_thread_count(before); }
 };
 
-// Ellipses at gaps of at least `least`, packed as random drops into a square find room.
-Suspension random_drop(std::mt19937_64& generator, int count, double side, double least) {
-  Suspension bodies;
-  while (static_cast<int>(bodies.size()) < count) {
-    const double a = 0.35 + 0.25 * uniform(generator), b = a * (0.45 + 0.55 * uniform(generator));
-    const Complex centre(side * uniform(generator), side * uniform(generator));
-    const Body next = body(a, b, centre, 2.0 * pi * uniform(generator));
-    const bool apart = std::all_of(bodies.begin(), bodies.end(),
-                                   [&](const Body& other) { return gap(next, other).value >= least; });
-    if (apart) bodies.push_back(next);
-  }
-  return bodies;
-}
-
 }  // namespace
 
 TEST_CASE("the observer sees every state once and in order, the final one without an outcome") {
