@@ -90,7 +90,8 @@ void check_geometry(const Case& c, const Limit& limit) {
 
 void check_output(const Case& c, const Limit& limit) {
   limit(c.output_every >= 1, "output_every", "must be at least 1, which writes every step.");
-  const std::string obstacle = why_not_writable(c.output);
+  std::string obstacle = why_not_writable(c.output);
+  if (obstacle.empty() && c.vtk) obstacle = why_not_writable(std::filesystem::path(c.output) / "vtk");
   limit(obstacle.empty(), "output", concat("cannot be the output folder: ", obstacle, "; choose another one."));
   for (std::size_t k = 0; k < c.fields_at.size(); ++k) {
     const double time = c.fields_at[k];

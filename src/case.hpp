@@ -61,6 +61,7 @@ struct Case {
   int output_every = 1;                         // steps
   std::vector<double> fields_at;                // times, increasing
   int field_points = 200;                       // on each side of the grid
+  bool vtk = false;                             // a picture of every output step in OUTPUT/vtk
   double checkpoint_every = 60.0;               // seconds of wall time; 0: none at intervals
   std::optional<int> threads;                   // all cores if not given
   TimeCounting time_counting = TimeCounting::exact;

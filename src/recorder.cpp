@@ -17,18 +17,10 @@ const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x"
 std::vector<std::string> steps_columns(StepsColumns columns) {
   std::vector<std::string> names = {"step",           "time",     "dt",      "gmres_iterations",
                                     "ncp_iterations", "contacts", "min_gap", "density_tail", "stokes_solves"};
-  if (columns == StepsColumns::between_walls) names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity",
-                              "stresslet_shear", "stresslet_normal_difference", "contact_shear",
-                              "contact_normal_difference"});
+  if (columns == StepsColumns::between_walls)
+    names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity", "stresslet_shear",
+                               "stresslet_normal_difference", "contact_shear", "contact_normal_difference"});
   return names;
-}
-
-const std::filesystem::path& made(const std::filesystem::path& folder) {
-  std::string why = why_not_writable(folder);
-  std::error_code error;
-  if (why.empty() && (std::filesystem::create_directories(folder, error), error)) why = error.message();
-  if (!why.empty()) throw InputError(concat("the output folder ", quote(folder.string()), " cannot be used: ", why));
-  return folder;
 }
 
 const std::filesystem::path& long_enough(const std::filesystem::path& folder, const Recorder::Position& position) {
@@ -74,11 +66,23 @@ std::string why_not_writable(const std::filesystem::path& folder) {
   return {};
 }
 
+const std::filesystem::path& made_folder(const std::filesystem::path& folder) {
+  std::string why = why_not_writable(folder);
+  std::error_code error;
+  if (why.empty() && (std::filesystem::create_directories(folder, error), error)) why = error.message();
+  if (!why.empty()) throw InputError(concat("the output folder ", quote(folder.string()), " cannot be used: ", why));
+  return folder;
+}
+
 Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns)
     : output_every_(output_every),
       columns_(columns),
-      trajectory_(made(folder) / trajectory_name, trajectory_columns),
-      steps_(folder / steps_name, steps_columns(columns)) {}
+      trajectory_(made_folder(folder) / trajectory_name, trajectory_columns),
+      steps_(folder / steps_name, steps_columns(columns)) {
+  trajectory_.flush();
+  steps_.flush();
+  position_ = {trajectory_.bytes(), steps_.bytes(), {}};
+}
 
 Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns,
                    const Position& position)
@@ -87,9 +91,21 @@ Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsC
       trajectory_(CsvWriter::continued(long_enough(folder, position) / trajectory_name, trajectory_columns.size(),
                                        position.trajectory_bytes)),
       steps_(CsvWriter::continued(folder / steps_name, steps_columns(columns).size(), position.steps_bytes)),
-      skipped_(position.skipped) {}
+      skipped_(position.skipped),
+      position_(position) {}
 
 void Recorder::record(const StepRecord& record) {
+  try {
+    write(record);
+  } catch (const NumericalError&) {
+    trajectory_.close_after(position_.trajectory_bytes);
+    steps_.close_after(position_.steps_bytes);
+    throw;
+  }
+  position_ = {trajectory_.bytes(), steps_.bytes(), skipped_};
+}
+
+void Recorder::write(const StepRecord& record) {
   const double nan = std::nan(""), step = static_cast<double>(record.step);
   const StepOutcome* outcome = record.outcome;
   std::vector<Row> rows;

@@ -81,6 +81,11 @@ class Workspace {
   // simulate ARGUMENTS in this folder.
   ProgramRun run(const std::vector<std::string>& arguments) const { return run_by("", arguments); }
 
+  // The same, but no file may have more than so many blocks of 512 bytes (of 1024 in some shells).
+  ProgramRun run_limited(int blocks, const std::vector<std::string>& arguments) const {
+    return run_by("", arguments, concat("ulimit -f ", blocks, "; "));
+  }
+
   // The same, but after so many seconds the program gets a signal (KILL, TERM, INT).
   ProgramRun run_until(double seconds, const std::string& signal, const std::vector<std::string>& arguments) const {
     return run_by(concat("timeout --preserve-status -s ", signal, " ", seconds, " "), arguments);
@@ -99,12 +104,13 @@ class Workspace {
   }
 
  private:
-  ProgramRun run_by(const std::string& starter, const std::vector<std::string>& arguments) const {
+  ProgramRun run_by(const std::string& starter, const std::vector<std::string>& arguments,
+                    const std::string& before = "") const {
     const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
     const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
     // Threads that wait actively are ten times slower where other work, such as more tests, has the cores.
     std::string command =
-        concat("cd ", shell_word(path().string()), " && OMP_WAIT_POLICY=passive ", starter, shell_word(program()));
+        concat("cd ", shell_word(path().string()), " && ", before, "OMP_WAIT_POLICY=passive ", starter, shell_word(program()));
     for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
     const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
     const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
