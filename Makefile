@@ -95,7 +95,7 @@ $(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
 -include $(wildcard $(BUILD)/*.d)
 
 # --- tests ----------------------------------------------------------------------------------------------
-test: $(BUILD)/tests $(BUILD)/simulate
+test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling
 	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests
 
 sanitize:
