@@ -12,10 +12,10 @@ namespace fs = std::filesystem;
 // Sources with a main(), by name.
 std::vector<std::string> programs() {
   std::vector<std::string> names;
-  for (const char* folder : {"src", "experiments"})
+  for (const char* folder : {"src", "experiments", "tests"})
     for (const auto& entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".cpp" && content_of(entry.path()).find("\nint main(") != std::string::npos)
-        names.push_back(entry.path().stem().string());
+        if (entry.path().stem() != "main") names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
