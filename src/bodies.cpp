@@ -15,7 +15,7 @@ namespace stokes {
 
 namespace {
 
-constexpr double largest_length = 1e100;  // squares and their products stay finite
+constexpr double largest_length = 1e100, smallest_axis = 1e-100;  // squares and their products stay finite and positive
 
 template <class... Parts>
 [[noreturn]] void refuse(const std::string& where, const Parts&... parts) {
@@ -70,6 +70,10 @@ Body read_body(const Table& table, int row) {
     if (std::abs(value(name)) > largest_length)
       refuse(table.where(row), name, " = ", value(name), " of body ", row, " is above ", largest_length,
              "; choose a larger unit of length.");
+  for (const char* axis : {"a", "b"})
+    if (value(axis) < smallest_axis)
+      refuse(table.where(row), "the semi-axis ", axis, " = ", value(axis), " of body ", row, " is below ", smallest_axis,
+             "; choose a smaller unit of length.");
   const double fixed = value("fixed");
   if (fixed != 0.0 && fixed != 1.0) {
     refuse(table.where(row), "fixed = ", fixed, " of body ", row,
