@@ -24,8 +24,8 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize fuzz clean \
-        FORCE
+.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize fuzz coverage \
+        clean FORCE
 .SECONDARY:
 
 help:
@@ -43,6 +43,7 @@ help:
 	@echo 'make bench            time the kernels and the solver'
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make fuzz             read mutated input files, FUZZ="count=N seed=S"'
+	@echo 'make coverage         lines and functions of src that the tests reach (gcov)'
 	@echo 'make clean            remove $(BUILD) and $(RESULTS)'
 	@echo
 	@echo 'CXX=clang++  another compiler        PORTABLE=1   no -march=native'
@@ -108,6 +109,13 @@ fuzz: $(BUILD)/fuzz_input
 sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \
 	  SANITIZERS='-fsanitize=address,undefined -fno-sanitize-recover=all' test
+
+# Programs that are killed in a test leave no counts.
+GCOV ?= gcov
+coverage:
+	@rm -f $(BUILD)/coverage/*.gcda
+	$(MAKE) BUILD=$(BUILD)/coverage CXXFLAGS='-O1 --coverage' PORTABLE=1 test
+	@$(GCOV) -t -b -m -r $(BUILD)/coverage/*.o 2>/dev/null | awk -f tests/coverage.awk
 
 # --- experiments: one process and one file a case -------------------------------------------------------
 TABLE1_SEPARATIONS = 0 1 2 2.25 2.5 2.75 3
