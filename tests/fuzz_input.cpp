@@ -20,7 +20,8 @@ int run(long count, long seed) {
   for (long first = 0; first < count; first += batch) {
     if (first % 100000 == 0) std::fprintf(stderr, "seed %ld, from mutation %ld\n", seed, first);
     alarm(batch_seconds);
-    const stokes::FuzzReport part = stokes::fuzz_input(first, std::min(batch, count - first), static_cast<std::uint64_t>(seed));
+    const long size = std::min(batch, count - first);
+    const stokes::FuzzReport part = stokes::fuzz_input(first, size, static_cast<std::uint64_t>(seed));
     total.mutations += part.mutations;
     total.accepted_cases += part.accepted_cases;
     total.accepted_suspensions += part.accepted_suspensions;

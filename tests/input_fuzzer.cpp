@@ -30,7 +30,8 @@ const std::vector<Files>& originals() {
       {"geometry = annulus\nbodies = b.csv\ninner_radius = 1\nouter_radius = 10\nwall_points = 128\n"
        "outer_angular_velocity = 2\ninner_angular_velocity = -1\ninjection_rate = 3.5\npoints_per_body = 32\n"
        "time_step = 0.01\nend_time = 1\noutput = out\nmin_separation_length = 0.02\nrefine = near\nsummation = fmm\n",
-       "a,b,x,y,theta,fixed,torque,force_y\n.25,.25,3,0,0,1,0,0\n.5,.25,-3,1,2,0,1,-2\n1,1,0,7,0,0,0,1\n.1,2,6,-3,.75,0,0,0\n"},
+       "a,b,x,y,theta,fixed,torque,force_y\n.25,.25,3,0,0,1,0,0\n"
+       ".5,.25,-3,1,2,0,1,-2\n1,1,0,7,0,0,0,1\n.1,2,6,-3,.75,0,0,0\n"},
   };
   return files;
 }
@@ -97,7 +98,8 @@ void swap_pieces(Random& random, std::string& text, const char* separators) {
   auto first = pieces[below(random, pieces.size())], second = pieces[below(random, pieces.size())];
   if (first.first > second.first) std::swap(first, second);
   if (first.second > second.first) return;
-  const std::string a = text.substr(first.first, first.second - first.first), b = text.substr(second.first, second.second - second.first);
+  const std::string a = text.substr(first.first, first.second - first.first);
+  const std::string b = text.substr(second.first, second.second - second.first);
   text.replace(second.first, b.size(), a);
   text.replace(first.first, a.size(), b);
 }
@@ -121,7 +123,8 @@ void duplicate_line(Random& random, std::string& text) {
 
 void lengthen(Random& random, std::string& text) {
   const std::size_t length = below(random, 100) == 0 ? 100'000 : 1 + below(random, 600);
-  text.insert(below(random, text.size() + 1), length, any_of(random, {"x", "9", "0", " ", ",", "#", "/", "\n", "\"", "="})[0]);
+  const char filling = "x90 ,#/\n\"="[below(random, 10)];
+  text.insert(below(random, text.size() + 1), length, filling);
 }
 
 void cut_short(Random& random, std::string& text) { text.resize(below(random, text.size() + 1)); }
@@ -129,7 +132,8 @@ void cut_short(Random& random, std::string& text) { text.resize(below(random, te
 // Another row for a bodies' file with the five columns: often accepted.
 void add_body(Random& random, std::string& text) {
   const auto small = [&random](double scale) { return scale * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
-  text += concat(std::abs(small(2.0)), ",", std::abs(small(2.0)), ",", small(20.0), ",", small(20.0), ",", small(10.0), "\n");
+  const double a = std::abs(small(2.0)), b = std::abs(small(2.0)), x = small(20.0), y = small(20.0), theta = small(10.0);
+  text += concat(a, ",", b, ",", x, ",", y, ",", theta, "\n");
 }
 
 void mutate(Random& random, std::string& text) {
@@ -150,8 +154,8 @@ void mutate(Random& random, std::string& text) {
 // What is wrong with a case that was accepted, or nothing.
 std::string judge(const Case& c) {
   for (const double value : {c.time_step, c.end_time, c.inner_radius, c.outer_radius, c.outer_angular_velocity,
-                             c.inner_angular_velocity, c.injection_rate, c.rate, c.reverse_at.value_or(0.0), c.min_separation,
-                             c.min_separation_length.value_or(0.0), c.gmres_tolerance, c.checkpoint_every})
+                             c.inner_angular_velocity, c.injection_rate, c.rate, c.reverse_at.value_or(0.0),
+                             c.min_separation, c.min_separation_length.value_or(0.0), c.gmres_tolerance, c.checkpoint_every})
     if (!std::isfinite(value)) return "a number is not finite";
   if (c.points_per_body < 8 || c.points_per_body % 2 != 0) return "points_per_body";
   if (!(c.time_step > 0.0) || !(c.end_time > 0.0) || c.end_time / c.time_step >= 2e9) return "time_step or end_time";
@@ -234,7 +238,8 @@ FuzzReport fuzz_input(long first, long count, std::uint64_t seed) {
     try_files(files, report);
     ++report.mutations;
     if (!report.failure.empty())
-      report.failure = concat("mutation ", number, ": ", report.failure, "\n--- case\n", files.case_file, "--- bodies\n", files.bodies);
+      report.failure = concat("mutation ", number, ": ", report.failure, "\n--- case\n", files.case_file, "--- bodies\n",
+                              files.bodies);
   }
   return report;
 }

@@ -52,7 +52,8 @@ TEST_CASE("an experiment names its cases, and refuses others with the nearest on
   CHECK(list.status == 0);
   CHECK(contains(list.output, "rate2_global\n"));
   const ProgramRun help = run_program(program, {"--help"}, elsewhere.path());
-  for (const std::string_view name : split(trim(list.output), '\n')) CHECK(contains(help.output, concat("\n  ", name, "\n")));
+  for (const std::string_view name : split(trim(list.output), '\n'))
+    CHECK(contains(help.output, concat("\n  ", name, "\n")));
   CHECK(contains(help.output, "Section 4.1"));
 
   const ProgramRun nothing = run_program(program, {}, elsewhere.path());

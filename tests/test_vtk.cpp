@@ -81,7 +81,8 @@ TEST_CASE("a picture holds the outlines and the numbers of trajectory.csv, bit f
   for (int k = 0; k < 2 * corners; ++k) {
     const int body = k / corners;
     const Complex centre(results.body_column(body, "x")[9], results.body_column(body, "y")[9]);
-    const Complex z = std::polar(1.0, -results.body_column(body, "theta")[9]) * (Complex(points[3 * k], points[3 * k + 1]) - centre);
+    const Complex corner(points[3 * k], points[3 * k + 1]);
+    const Complex z = std::polar(1.0, -results.body_column(body, "theta")[9]) * (corner - centre);
     CHECK(std::abs(std::hypot(z.real() / shapes[body].a, z.imag() / shapes[body].b) - 1.0) < 1e-14);
     CHECK(points[3 * k + 2] == 0.0);
   }
@@ -152,7 +153,8 @@ TEST_CASE("the container is a closed line before the bodies, the inner wall the 
 TEST_CASE("a run that is stopped and goes on ends with the pictures of an undisturbed one") {
   const std::string text = shear_case("time_counting = accumulated\n");
   const Workspace whole(text, bodies), here(text, bodies);
-  const std::vector<std::string> arguments = {"case.txt", "points_per_body=64", "end_time=8", "time_step=.01", "output_every=7"};
+  const std::vector<std::string> arguments = {"case.txt", "points_per_body=64", "end_time=8", "time_step=.01",
+                                              "output_every=7"};
   REQUIRE(whole.run(arguments).status == 0);
   int stops = 0;  // later each time, so that it ends on any machine
   while (here.run_until(0.1 + 0.05 * stops, "TERM", arguments).status != 0) REQUIRE(++stops < 200);
