@@ -18,14 +18,14 @@ names        = $(basename $(notdir $(wildcard $(1))))
 PROGRAMS    := simulate bench bench_fmm
 EXPERIMENTS := $(call names,experiments/*.cpp)
 LIBRARY     := $(filter-out $(PROGRAMS),$(call names,src/*.cpp))
-TESTS       := $(call names,tests/*.cpp)
+TESTS       := $(filter-out fuzz_input,$(call names,tests/*.cpp))
 BINARIES    := $(addprefix $(BUILD)/,$(PROGRAMS) $(EXPERIMENTS))
-OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $(TESTS))
+OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $(TESTS) fuzz_input)
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize clean \
-        FORCE
+.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize fuzz coverage \
+        clean FORCE
 .SECONDARY:
 
 help:
@@ -42,6 +42,8 @@ help:
 	@echo 'make all              build everything'
 	@echo 'make bench            time the kernels and the solver'
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
+	@echo 'make fuzz             read mutated input files, FUZZ="count=N seed=S"'
+	@echo 'make coverage         lines and functions of src that the tests reach (gcov)'
 	@echo 'make clean            remove $(BUILD) and $(RESULTS)'
 	@echo
 	@echo 'CXX=clang++  another compiler        PORTABLE=1   no -march=native'
@@ -89,18 +91,31 @@ $(BUILD)/libstokes.a: $(LIBRARY:%=$(BUILD)/%.o)
 	ar rcs $@ $^
 $(BUILD)/tests: $(TESTS:%=$(BUILD)/%.o) $(BUILD)/libstokes.a
 	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
+$(BUILD)/fuzz_input: $(BUILD)/fuzz_input.o $(BUILD)/input_fuzzer.o $(BUILD)/libstokes.a
+	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
 $(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
 	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
 
 -include $(wildcard $(BUILD)/*.d)
 
 # --- tests ----------------------------------------------------------------------------------------------
-test: $(BUILD)/tests $(BUILD)/simulate
+test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling
 	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests
+
+FUZZ = count=100000 seed=1
+fuzz: $(BUILD)/fuzz_input
+	@$(BUILD)/fuzz_input $(FUZZ)
 
 sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \
 	  SANITIZERS='-fsanitize=address,undefined -fno-sanitize-recover=all' test
+
+# Programs that are killed in a test leave no counts.
+GCOV ?= gcov
+coverage:
+	@rm -f $(BUILD)/coverage/*.gcda
+	$(MAKE) BUILD=$(BUILD)/coverage CXXFLAGS='-O1 --coverage' PORTABLE=1 test
+	@$(GCOV) -t -b -m -r $(BUILD)/coverage/*.o 2>/dev/null | awk -f tests/coverage.awk
 
 # --- experiments: one process and one file a case -------------------------------------------------------
 TABLE1_SEPARATIONS = 0 1 2 2.25 2.5 2.75 3

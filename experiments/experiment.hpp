@@ -3,6 +3,7 @@
 //   program case=NAME [results=DIR]   computes one case, writes DIR/<experiment>/<case>.csv
 //   program collect   [results=DIR]   combines the cases that are there into tables and summary.csv
 //   program list                      prints the names of the cases
+//   program --help                    says what it makes
 #pragma once
 
 #include <algorithm>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "about.hpp"
 #include "base.hpp"
 #include "csv.hpp"
 #include "run.hpp"
@@ -84,10 +86,26 @@ struct Experiment {
   std::function<void(const Results&)> collect;
 };
 
+inline std::string usage_of(const std::string& experiment) {
+  return concat("usage: ", experiment, " case=NAME|collect|list [results=DIR]");
+}
+
+inline std::string help_of(const Experiment& experiment) {
+  const std::string& name = experiment.name;
+  std::string text = concat(usage_of(name), "\n\n", about(name), "\n\n",
+                            "case=NAME    computes one case and writes DIR/", name, "/NAME.csv\n",
+                            "collect      combines the cases that are there into tables in DIR/", name, "\n",
+                            "list         prints the names of the cases\n",
+                            "results=DIR  folder of all results, `results` if not given\n\n",
+                            "`make ", name, "` does all of it. The cases:\n");
+  for (const std::string& each : experiment.cases) text += concat("  ", each, "\n");
+  return text;
+}
+
 // main() of an experiment: exit status 0, 2 for wrong arguments, 3 for a numerical failure. A case runs on
 // one thread, so that cases can run side by side.
 inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
-  const std::string usage = concat("usage: ", experiment.name, " case=NAME|collect|list [results=DIR]");
+  const std::string usage = usage_of(experiment.name);
   try {
     std::string task, root = "results";
     for (int i = 1; i < argc; ++i) {
@@ -98,6 +116,10 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
         task = argument;
       else
         throw InputError(concat("unexpected argument ", quote(argument), "; ", usage));
+    }
+    if (task == "--help" || task == "-h") {
+      std::printf("%s", help_of(experiment).c_str());
+      return 0;
     }
     if (task == "list") {
       for (const std::string& name : experiment.cases) std::printf("%s\n", name.c_str());

@@ -184,6 +184,9 @@ void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
   for (const fs::path& folder : folders(inputs.results())) inputs.require_not_older(verdict, folder);
 }
 
+constexpr const char* usage =
+    "usage: report [results=DIR] [reference=DIR] [document=DIR] [errata=FILE] [missing=fail|allow]";
+
 int run(int argc, char** argv) {
   std::map<std::string, std::string> options = {{"results", "results"},
                                                 {"reference", "reference_data"},
@@ -195,8 +198,7 @@ int run(int argc, char** argv) {
     const std::size_t equals = argument.find('=');
     const auto option = options.find(argument.substr(0, equals));
     if (equals == std::string::npos || option == options.end())
-      throw InputError(concat("unknown argument ", quote(argument), "; usage: report [results=DIR] [reference=DIR] ",
-                              "[document=DIR] [errata=FILE] [missing=fail|allow]"));
+      throw InputError(concat("unknown argument ", quote(argument), "; ", usage));
     option->second = argument.substr(equals + 1);
   }
   if (options["missing"] != "fail" && options["missing"] != "allow")
@@ -232,6 +234,12 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
+    std::printf("%s\n\nWrites the numbers, tables and lists that the report asks for to DIR/report/*.tex. Exit status 1,\n"
+                "and nothing is written, if one of them is missing, unless missing=allow.\n",
+                usage);
+    return 0;
+  }
   try {
     return run(argc, argv);
   } catch (const std::exception& error) {

@@ -113,12 +113,19 @@ void bench_iteration(int side, int points) {
 
 }  // namespace
 
+constexpr const char* usage = "usage: bench [threads=K]\n";
+
 int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
+    if (argument == "--help" || argument == "-h") {
+      std::printf("%s\nTimes the kernels and the solver and prints one CSV table: quantity,size,threads,value,unit,\n"
+                  "each value the median of five.\n", usage);
+      return 0;
+    }
     const auto threads = argument.starts_with("threads=") ? parse_integer(argument.substr(8)) : std::nullopt;
     if (!threads || *threads < 1 || *threads > 1024) {
-      std::fprintf(stderr, "usage: bench [threads=K]\n");
+      std::fputs(usage, stderr);
       return 2;
     }
     set_thread_count(static_cast<int>(*threads));

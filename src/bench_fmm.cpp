@@ -29,10 +29,12 @@ struct Options {
   FlowOutput output = FlowOutput::velocity;
 };
 
+constexpr const char* usage =
+    "usage: bench_fmm [points=N] [tolerance=T] [threads=K] [distribution=uniform|discs|annulus] "
+    "[output=velocity|gradient]";
+
 [[noreturn]] void refuse(const std::string& argument) {
-  throw InputError(concat("bench_fmm: ", quote(argument), " is not understood; usage: bench_fmm [points=N] ",
-                          "[tolerance=T] [threads=K] [distribution=uniform|discs|annulus] ",
-                          "[output=velocity|gradient]"));
+  throw InputError(concat("bench_fmm: ", quote(argument), " is not understood; ", usage));
 }
 
 int whole_number(const std::string& argument, const std::string& value, long long largest) {
@@ -150,6 +152,12 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
+    std::printf("%s\n\nTimes the fast multipole method for stresslets against the direct sum and prints one CSV row:\n"
+                "points,tolerance,threads,plan_seconds,evaluate_seconds,direct_seconds,max_relative_error\n",
+                usage);
+    return 0;
+  }
   try {
     run(parse(argc, argv));
   } catch (const InputError& error) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "container_gap.hpp"
 #include "csv.hpp"
@@ -14,7 +15,7 @@ namespace stokes {
 
 namespace {
 
-constexpr double largest_length = 1e100;  // squares and their products stay finite
+constexpr double largest_length = 1e100, smallest_axis = 1e-100;  // squares and their products stay finite and positive
 
 template <class... Parts>
 [[noreturn]] void refuse(const std::string& where, const Parts&... parts) {
@@ -69,6 +70,10 @@ Body read_body(const Table& table, int row) {
     if (std::abs(value(name)) > largest_length)
       refuse(table.where(row), name, " = ", value(name), " of body ", row, " is above ", largest_length,
              "; choose a larger unit of length.");
+  for (const char* axis : {"a", "b"})
+    if (value(axis) < smallest_axis)
+      refuse(table.where(row), "the semi-axis ", axis, " = ", value(axis), " of body ", row, " is below ", smallest_axis,
+             "; choose a smaller unit of length.");
   const double fixed = value("fixed");
   if (fixed != 0.0 && fixed != 1.0) {
     refuse(table.where(row), "fixed = ", fixed, " of body ", row,
@@ -122,14 +127,40 @@ void check_net_force(const Table& table, const Suspension& bodies) {
        "from every body.");
 }
 
+[[noreturn]] void refuse_pair(const Table& table, const ClosestPair& pair, const char* which) {
+  refuse(table.where(pair.b), "bodies ", pair.a, " and ", pair.b, " (counted from 0) ",
+         pair.gap < 0.0 ? concat("overlap by ", -pair.gap) : std::string("touch"), which, "; move them apart.");
+}
+
+// A pile of many bodies, as from a wrong unit of length or rows that are there twice, has too many pairs to look at
+// each. Two centres in one square whose diagonal is below two inradii overlap; where there are none, no place has
+// more bodies than a search for the smallest gap can look at.
+void check_piles(const Table& table, const Suspension& bodies) {
+  constexpr std::size_t few = 200;
+  if (bodies.size() <= few) return;
+  double inradius = std::numeric_limits<double>::infinity();
+  for (const Body& body : bodies) inradius = std::min(inradius, body.shape.inradius());
+  std::vector<std::tuple<double, double, int>> squares;
+  for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
+    const Complex centre = bodies[i].pose.centre;
+    squares.emplace_back(std::floor(centre.real() / (1.4 * inradius)), std::floor(centre.imag() / (1.4 * inradius)), i);
+  }
+  std::sort(squares.begin(), squares.end());
+  for (std::size_t k = 1; k < squares.size(); ++k) {
+    const auto& [x, y, a] = squares[k - 1];
+    const auto& [next_x, next_y, b] = squares[k];
+    if (x != next_x || y != next_y) continue;
+    const double value = gap(bodies[a], bodies[b]).value;
+    if (value <= 0.0) refuse_pair(table, {a, b, value}, "");
+  }
+}
+
 void check_overlaps(const Table& table, const Suspension& bodies) {
+  check_piles(table, bodies);
   Suspension all = bodies;  // two fixed ones count as well
   for (Body& body : all) body.fixed = false;
   const ClosestPair closest = smallest_gap(all);
-  if (closest.gap > 0.0) return;
-  refuse(table.where(closest.b), "bodies ", closest.a, " and ", closest.b, " (counted from 0) ",
-         closest.gap < 0.0 ? concat("overlap by ", -closest.gap) : std::string("touch"),
-         ", the smallest gap of all; move them apart.");
+  if (closest.gap <= 0.0) refuse_pair(table, closest, ", the smallest gap of all");
 }
 
 void check_walls(const Table& table, const Suspension& bodies, const Annulus& annulus) {
@@ -155,14 +186,14 @@ void check_walls(const Table& table, const Suspension& bodies, const Annulus& an
          ", the smallest distance to a wall of all; move it ", is_outer ? "inwards." : "outwards.");
 }
 
-Table read_bodies_table(const std::filesystem::path& path) {
-  return parse_csv(read_text_file(path, "the bodies' file"), path.string());
-}
-
 }  // namespace
 
 Suspension read_bodies(const std::filesystem::path& path) {
-  const Table table = read_bodies_table(path);
+  return parse_bodies(read_text_file(path, "the bodies' file"), path.string());
+}
+
+Suspension parse_bodies(std::string_view content, const std::string& file_name) {
+  const Table table = parse_csv(content, file_name);
   Suspension bodies = read_table(table);
   check_all_free(table, bodies);
   check_net_force(table, bodies);
@@ -170,8 +201,8 @@ Suspension read_bodies(const std::filesystem::path& path) {
   return bodies;
 }
 
-Suspension read_bodies(const std::filesystem::path& path, const Annulus& annulus) {
-  const Table table = read_bodies_table(path);
+Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus) {
+  const Table table = parse_csv(content, file_name);
   Suspension bodies = read_table(table);
   check_walls(table, bodies, annulus);
   check_overlaps(table, bodies);

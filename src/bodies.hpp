@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "annulus.hpp"
 
@@ -11,10 +12,12 @@ namespace stokes {
 // Reads and checks the bodies of a suspension in unbounded flow: no fixed bodies, zero net force (relative
 // to the sum of the magnitudes, 1e-12), no overlap. InputError with file and line for anything else.
 Suspension read_bodies(const std::filesystem::path& path);
+// The same for the content of such a file; the name is for messages.
+Suspension parse_bodies(std::string_view content, const std::string& file_name);
 
 // The same for the bodies in an annulus, without its walls: bodies may be fixed, forces may have any sum (that
 // on a fixed body does nothing), and no body may overlap or touch another one or a wall.
-Suspension read_bodies(const std::filesystem::path& path, const Annulus& annulus);
+Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus);
 
 // What a user can write there.
 std::string bodies_help();

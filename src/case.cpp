@@ -45,10 +45,9 @@ void add_setting(std::string_view setting, const std::string& where, GivenKeys& 
 std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find('#'))); }
 
 // Everything given, arguments in the place of what the file says; `end` is the file's last line.
-GivenKeys collect(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+GivenKeys collect(std::string_view content, const std::filesystem::path& file, const std::vector<std::string>& overrides,
                   std::string& end) {
-  std::string content = read_text_file(file, "the case file");
-  if (content.ends_with('\n')) content.pop_back();
+  if (content.ends_with('\n')) content.remove_suffix(1);
   GivenKeys in_file, in_arguments;
   int line_number = 0;
   for (const std::string_view line : split(content, '\n')) {
@@ -90,7 +89,8 @@ void check_geometry(const Case& c, const Limit& limit) {
 
 void check_output(const Case& c, const Limit& limit) {
   limit(c.output_every >= 1, "output_every", "must be at least 1, which writes every step.");
-  const std::string obstacle = why_not_writable(c.output);
+  std::string obstacle = why_not_writable(c.output);
+  if (obstacle.empty() && c.vtk) obstacle = why_not_writable(std::filesystem::path(c.output) / "vtk");
   limit(obstacle.empty(), "output", concat("cannot be the output folder: ", obstacle, "; choose another one."));
   for (std::size_t k = 0; k < c.fields_at.size(); ++k) {
     const double time = c.fields_at[k];
@@ -101,6 +101,19 @@ void check_output(const Case& c, const Limit& limit) {
   limit(c.field_points >= 2, "field_points", "must be at least 2; try 200.");
   limit(c.field_points <= 10000, "field_points", "is above 10000, more than 1e8 points; try 200.");
   limit(c.checkpoint_every >= 0.0, "checkpoint_every", "must be at least 0; 0 makes none at intervals.");
+}
+
+void check_separation(const Case& c, const Limit& limit) {
+  limit(c.min_separation >= 0.0, "min_separation", "must be at least 0.");
+  limit(c.min_separation <= 1e100, "min_separation", "is above 1e100, more than any suspension has room for; try 1.");
+  if (c.min_separation_length) {
+    limit(*c.min_separation_length >= 0.0, "min_separation_length", "must be at least 0.");
+    limit(*c.min_separation_length <= 1e100, "min_separation_length", "is above 1e100; choose a larger unit of length.");
+    if (const auto other = limit.given.find("min_separation"); other != limit.given.end())
+      limit(false, "min_separation_length",
+            concat("and min_separation = ", quote(other->second.text), " (", other->second.where,
+                   ") set the same thing; keep one of them."));
+  }
 }
 
 // Limits of the values and of their combinations.
@@ -117,14 +130,7 @@ void check_case(const Case& c, const GivenKeys& given) {
   limit(c.end_time / c.time_step < 2e9, "time_step",
         concat("makes more than 2e9 steps to end_time = ", c.end_time, "; take a larger step."));
   if (c.reverse_at) limit(*c.reverse_at >= 0.0, "reverse_at", "must be at least 0, or none.");
-  limit(c.min_separation >= 0.0, "min_separation", "must be at least 0.");
-  if (c.min_separation_length) {
-    limit(*c.min_separation_length >= 0.0, "min_separation_length", "must be at least 0.");
-    if (const auto other = given.find("min_separation"); other != given.end())
-      limit(false, "min_separation_length",
-            concat("and min_separation = ", quote(other->second.text), " (", other->second.where,
-                   ") set the same thing; keep one of them."));
-  }
+  check_separation(c, limit);
   limit(c.gmres_tolerance > 0.0 && c.gmres_tolerance < 1.0, "gmres_tolerance",
         "must be greater than 0 and less than 1; try 1e-8.");
   limit(c.stiv_vertices == 0 || c.stiv_vertices >= 8, "stiv_vertices",
@@ -139,8 +145,12 @@ void check_case(const Case& c, const GivenKeys& given) {
 }  // namespace
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return parse_case(read_text_file(file, "the case file"), file, overrides);
+}
+
+Case parse_case(std::string_view content, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
   std::string end;
-  const GivenKeys given = collect(file, overrides, end);
+  const GivenKeys given = collect(content, file, overrides, end);
   Case result;
   result.file = file;
   const auto set = [&](const CaseKey& key) {
@@ -161,12 +171,16 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
 }
 
 Suspension read_suspension(const Case& parameters) {
-  const std::filesystem::path path = parameters.bodies_path();
-  if (parameters.geometry == Geometry::unbounded) return read_bodies(path);
+  return parse_suspension(parameters, read_text_file(parameters.bodies_path(), "the bodies' file"));
+}
+
+Suspension parse_suspension(const Case& parameters, std::string_view content) {
+  const std::string name = parameters.bodies_path().string();
+  if (parameters.geometry == Geometry::unbounded) return parse_bodies(content, name);
   Annulus annulus{parameters.inner_radius, parameters.outer_radius, parameters.wall_points};
   annulus.inner_surface = {parameters.inner_angular_velocity, parameters.injection_rate};
   annulus.outer_surface = {parameters.outer_angular_velocity, parameters.injection_rate};
-  return between_walls(read_bodies(path, annulus), annulus);
+  return between_walls(parse_bodies(content, name, annulus), annulus);
 }
 
 double separation_length(const Case& parameters, const Suspension& bodies) {

@@ -61,6 +61,7 @@ struct Case {
   int output_every = 1;                         // steps
   std::vector<double> fields_at;                // times, increasing
   int field_points = 200;                       // on each side of the grid
+  bool vtk = false;                             // a picture of every output step in OUTPUT/vtk
   double checkpoint_every = 60.0;               // seconds of wall time; 0: none at intervals
   std::optional<int> threads;                   // all cores if not given
   TimeCounting time_counting = TimeCounting::exact;
@@ -72,9 +73,14 @@ struct Case {
 // Reads and checks a case file. Each override `key=value` counts as if written in the file and replaces
 // the value that is written there, right or wrong.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+// The same for the content of a case file of that name.
+Case parse_case(std::string_view content, const std::filesystem::path& file,
+                const std::vector<std::string>& overrides = {});
 
 // The bodies of a case's file and, in an annulus, its walls (annulus.hpp). InputError as read_bodies().
 Suspension read_suspension(const Case& parameters);
+// The same for the content of the bodies' file.
+Suspension parse_suspension(const Case& parameters, std::string_view content);
 
 // The smallest allowed distance between two bodies, in length units. Walls have no part in its unit h.
 double separation_length(const Case& parameters, const Suspension& bodies);

@@ -185,6 +185,7 @@ const std::vector<CaseKey>& case_keys() {
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
       optional("fields_at", &Case::fields_at, "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
       optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid"),
+      optional("vtk", &Case::vtk, "OUTPUT/vtk/step_NUMBER.vtk for ParaView at every output_every-th step and the end"),
       optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
       optional("threads", &Case::threads, "all", "at most 1024"),
       optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time"),

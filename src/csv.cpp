@@ -265,6 +265,13 @@ void CsvWriter::close() {
   if (std::fclose(file_.release()) != 0 || failed_before) fail();
 }
 
+void CsvWriter::close_after(std::uintmax_t bytes) {
+  file_.reset();  // may write once more what is in its buffer
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(name_, ignored);
+  if (!ignored && size > bytes) std::filesystem::resize_file(name_, bytes, ignored);
+}
+
 void CsvWriter::fail() const {
   throw NumericalError(concat(name_, ": cannot write: ", system_message(),
                               "; free some space or choose another output folder."));

@@ -94,6 +94,9 @@ class CsvWriter {
 
   void flush();
   void close();
+  // After a failed write: closes the file without a further complaint and takes what is behind its first `bytes`
+  // bytes away, such as a part of a row. A row after that is a program error.
+  void close_after(std::uintmax_t bytes);
 
  private:
   struct Close {

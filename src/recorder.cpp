@@ -17,18 +17,10 @@ const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x"
 std::vector<std::string> steps_columns(StepsColumns columns) {
   std::vector<std::string> names = {"step",           "time",     "dt",      "gmres_iterations",
                                     "ncp_iterations", "contacts", "min_gap", "density_tail", "stokes_solves"};
-  if (columns == StepsColumns::between_walls) names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity",
-                              "stresslet_shear", "stresslet_normal_difference", "contact_shear",
-                              "contact_normal_difference"});
+  if (columns == StepsColumns::between_walls)
+    names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity", "stresslet_shear",
+                               "stresslet_normal_difference", "contact_shear", "contact_normal_difference"});
   return names;
-}
-
-const std::filesystem::path& made(const std::filesystem::path& folder) {
-  std::string why = why_not_writable(folder);
-  std::error_code error;
-  if (why.empty() && (std::filesystem::create_directories(folder, error), error)) why = error.message();
-  if (!why.empty()) throw InputError(concat("the output folder ", quote(folder.string()), " cannot be used: ", why));
-  return folder;
 }
 
 const std::filesystem::path& long_enough(const std::filesystem::path& folder, const Recorder::Position& position) {
@@ -59,26 +51,46 @@ double contact_count(const StepOutcome& step) {
 }  // namespace
 
 std::string why_not_writable(const std::filesystem::path& folder) {
-  std::filesystem::path existing = std::filesystem::absolute(folder);
-  while (!std::filesystem::exists(std::filesystem::symlink_status(existing)) && existing.has_relative_path())
+  namespace fs = std::filesystem;
+  const auto because = [](const fs::path& place, std::string_view why) { return concat(quote(place.string()), " ", why); };
+  std::error_code error;
+  fs::path existing = fs::absolute(folder, error);
+  if (error) return because(folder, error.message());
+  fs::file_status status;
+  while ((status = fs::symlink_status(existing, error)).type() == fs::file_type::not_found && existing.has_relative_path())
     existing = existing.parent_path();
-  const auto because = [](const std::filesystem::path& place, const char* why) { return concat(quote(place.string()), " ", why); };
-  if (!std::filesystem::is_directory(existing)) return because(existing, "is not a folder");
+  if (status.type() == fs::file_type::none) return because(existing, concat("cannot be used: ", error.message()));
+  if (!fs::is_directory(existing, error)) return because(existing, "is not a folder");
   if (access(existing.c_str(), W_OK | X_OK) != 0) return because(existing, "is not writable");
   for (const char* name : {trajectory_name, steps_name, checkpoint_name}) {
-    const std::filesystem::path file = folder / name;
-    if (!std::filesystem::exists(file)) continue;
-    if (!std::filesystem::is_regular_file(file)) return because(file, "is in the way of a file to be written");
+    const fs::path file = folder / name;
+    const fs::file_type type = fs::status(file, error).type();
+    if (type == fs::file_type::not_found) continue;
+    if (type == fs::file_type::none) return because(file, concat("cannot be used: ", error.message()));
+    if (type != fs::file_type::regular) return because(file, "is in the way of a file to be written");
     if (access(file.c_str(), W_OK) != 0) return because(file, "is not writable");
   }
   return {};
 }
 
+const std::filesystem::path& made_folder(const std::filesystem::path& folder) {
+  std::string why = why_not_writable(folder);
+  std::error_code error;
+  if (why.empty()) std::filesystem::create_directories(folder, error);
+  if (error) why = error.message();
+  if (!why.empty()) throw InputError(concat("the output folder ", quote(folder.string()), " cannot be used: ", why));
+  return folder;
+}
+
 Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns)
     : output_every_(output_every),
       columns_(columns),
-      trajectory_(made(folder) / trajectory_name, trajectory_columns),
-      steps_(folder / steps_name, steps_columns(columns)) {}
+      trajectory_(made_folder(folder) / trajectory_name, trajectory_columns),
+      steps_(folder / steps_name, steps_columns(columns)) {
+  trajectory_.flush();
+  steps_.flush();
+  position_ = {trajectory_.bytes(), steps_.bytes(), {}};
+}
 
 Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns,
                    const Position& position)
@@ -87,9 +99,21 @@ Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsC
       trajectory_(CsvWriter::continued(long_enough(folder, position) / trajectory_name, trajectory_columns.size(),
                                        position.trajectory_bytes)),
       steps_(CsvWriter::continued(folder / steps_name, steps_columns(columns).size(), position.steps_bytes)),
-      skipped_(position.skipped) {}
+      skipped_(position.skipped),
+      position_(position) {}
 
 void Recorder::record(const StepRecord& record) {
+  try {
+    write(record);
+  } catch (const NumericalError&) {
+    trajectory_.close_after(position_.trajectory_bytes);
+    steps_.close_after(position_.steps_bytes);
+    throw;
+  }
+  position_ = {trajectory_.bytes(), steps_.bytes(), skipped_};
+}
+
+void Recorder::write(const StepRecord& record) {
   const double nan = std::nan(""), step = static_cast<double>(record.step);
   const StepOutcome* outcome = record.outcome;
   std::vector<Row> rows;

@@ -15,6 +15,9 @@ namespace stokes {
 // existing folder above must be writable, and what stands in the place of a file must be a writable file.
 std::string why_not_writable(const std::filesystem::path& folder);
 
+// The folder, made where it is missing. InputError when it cannot be made or written.
+const std::filesystem::path& made_folder(const std::filesystem::path& folder);
+
 // trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque
 //   The configuration at the start of a step, the velocities and the contact forces and torques that moved
 //   it; every `output_every`-th step, the first and the last; the final configuration is one more step
@@ -42,19 +45,23 @@ class Recorder {
   // nothing is changed, where they hold less.
   Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Position& position);
 
-  Position position() const { return {trajectory_.bytes(), steps_.bytes(), skipped_}; }
+  const Position& position() const { return position_; }
 
-  // Rows are on disk when this returns. NumericalError on a write error.
+  // Rows are on disk when this returns. NumericalError on a write error: both files and position() are then those
+  // of the record before, and nothing more can be recorded.
   void record(const StepRecord& record);
 
   // At the end of the work. NumericalError on a write error.
   void close();
 
  private:
+  void write(const StepRecord& record);
+
   int output_every_;
   StepsColumns columns_;
   CsvWriter trajectory_, steps_;
   std::vector<Row> skipped_;  // rows of the latest step that was left out; written if it is the last
+  Position position_;         // after the latest record
 };
 
 }  // namespace stokes

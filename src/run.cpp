@@ -13,6 +13,7 @@
 #include "progress.hpp"
 #include "recorder.hpp"
 #include "threads.hpp"
+#include "vtk.hpp"
 
 namespace stokes {
 
@@ -72,6 +73,7 @@ void catch_signals() {
     action.sa_flags = SA_RESTART;
     sigaction(signal, &action, nullptr);
   }
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size is then a write error like a full disk
 }
 
 // Writes the flow of the first state at or after each of the times asked for. A run that goes on keeps the files of
@@ -103,13 +105,15 @@ class FieldTimes {
   std::size_t next_ = 0;
 };
 
-// Writes checkpoints at intervals of wall time, and before the run ends early.
+// Writes checkpoints at intervals of wall time, and where the run ends early.
 class Checkpoints {
  public:
   Checkpoints(const CheckpointFile& file, const Recorder& recorder, double interval)
       : file_(file), recorder_(recorder), interval_(interval), last_(Clock::now()) {}
 
   void observe(const RunState& state, RunStage stage) {
+    latest_ = &state;
+    latest_stage_ = stage;
     const int signal = caught_signal;
     const bool due = interval_ > 0.0 && std::chrono::duration<double>(Clock::now() - last_).count() >= interval_;
     if (stage == RunStage::under_way && !due && signal == 0) return;
@@ -121,6 +125,19 @@ class Checkpoints {
     }
   }
 
+  // Where a run that could not write its results goes on, as the end of a message: from the latest state, up to which
+  // they reached to `position`, if there is room for its checkpoint, otherwise from the checkpoint before.
+  std::string save_after_write_error(const Recorder::Position& position) const {
+    std::string way = "the same command goes on from there";
+    try {
+      if (latest_) file_.write({*latest_, latest_stage_, position});
+    } catch (const std::exception&) {
+      way = "there is no room for a checkpoint, so that the same command goes on from an earlier one";
+    }
+    if (!std::filesystem::exists(file_.path())) way = "there is no checkpoint, so that the same command starts again";
+    return concat("The results are complete up to here; ", way, ".");
+  }
+
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -128,6 +145,8 @@ class Checkpoints {
   const Recorder& recorder_;
   double interval_;
   Clock::time_point last_;
+  const RunState* latest_ = nullptr;  // alive while the run is
+  RunStage latest_stage_ = RunStage::under_way;
 };
 
 }  // namespace
@@ -141,6 +160,9 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   const std::optional<Checkpoint> start = file.read();
   Progress progress(c.end_time, start ? start->run.clock.time : 0.0, label);
   if (!start) file.remove();  // of another run that failed, before its results
+  catch_signals();
+  std::optional<VtkWriter> vtk;
+  if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every, start.has_value());
   const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
   Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
                             : Recorder(c.output, c.output_every, columns);
@@ -153,12 +175,21 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   if (start) options.start = start->run;
   Checkpoints checkpoints(file, recorder, c.checkpoint_every);
   options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };
-  catch_signals();
   bool warned = false;
   FieldTimes fields(c, options.stepper, start.has_value());
+  const auto write = [&](const StepRecord& record) {
+    const Recorder::Position before = recorder.position();
+    try {
+      recorder.record(record);
+      fields.write(record);
+      if (vtk) vtk->write(record);
+    } catch (const std::exception& error) {
+      throw NumericalError(concat("step ", record.step, ", time ", record.time, ": ", error.what(), " ",
+                                  checkpoints.save_after_write_error(before)));
+    }
+  };
   const RunSummary summary = simulate(bodies, options, [&](const StepRecord& record) {
-    recorder.record(record);
-    fields.write(record);
+    write(record);
     progress.show(record);
     if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
       warned = true;

@@ -49,6 +49,32 @@ struct ProgramRun {
   std::string output, errors;
 };
 
+inline std::string shell_word(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+// Runs a program in a folder; `before` is shell text ahead of it, `starter` a program that starts it.
+inline ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                              const std::filesystem::path& folder, const std::string& starter = "",
+                              const std::string& before = "") {
+  const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
+  const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
+  // Threads that wait actively are ten times slower where other work, such as more tests, has the cores.
+  std::string command = concat("cd ", shell_word(folder.string()), " && ", before, "OMP_WAIT_POLICY=passive ", starter,
+                               shell_word(program.string()));
+  for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
+  const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
+  const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {exit_status, content_of(out), content_of(err)};
+}
+
+inline std::filesystem::path simulate_program() {
+  const char* name = std::getenv("SIMULATE");
+  return std::filesystem::absolute(name ? name : "build/simulate");
+}
+
 // What a run wrote. Fields are read as numbers, nan and inf included; anything else throws.
 struct Results {
   Table trajectory, steps;
@@ -81,6 +107,12 @@ class Workspace {
   // simulate ARGUMENTS in this folder.
   ProgramRun run(const std::vector<std::string>& arguments) const { return run_by("", arguments); }
 
+  // The same, but no file may have more than so many blocks of 512 bytes (of 1024 in some shells).
+  ProgramRun run_limited(int blocks, const std::vector<std::string>& arguments) const {
+    const TemporaryFolder counts;  // of a program built for coverage, which would be cut short where they belong
+    return run_by("", arguments, concat("export GCOV_PREFIX=", shell_word(counts.path().string()), "; ulimit -f ", blocks, "; "));
+  }
+
   // The same, but after so many seconds the program gets a signal (KILL, TERM, INT).
   ProgramRun run_until(double seconds, const std::string& signal, const std::vector<std::string>& arguments) const {
     return run_by(concat("timeout --preserve-status -s ", signal, " ", seconds, " "), arguments);
@@ -99,27 +131,9 @@ class Workspace {
   }
 
  private:
-  ProgramRun run_by(const std::string& starter, const std::vector<std::string>& arguments) const {
-    const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
-    const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
-    // Threads that wait actively are ten times slower where other work, such as more tests, has the cores.
-    std::string command =
-        concat("cd ", shell_word(path().string()), " && OMP_WAIT_POLICY=passive ", starter, shell_word(program()));
-    for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
-    const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
-    const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {exit_status, content_of(out), content_of(err)};
-  }
-
-  static std::string program() {
-    const char* name = std::getenv("SIMULATE");
-    return std::filesystem::absolute(name ? name : "build/simulate").string();
-  }
-
-  static std::string shell_word(const std::string& text) {
-    std::string word = "'";
-    for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return word + "'";
+  ProgramRun run_by(const std::string& starter, const std::vector<std::string>& arguments,
+                    const std::string& before = "") const {
+    return run_program(simulate_program(), arguments, path(), starter, before);
   }
 
   TemporaryFolder folder_;

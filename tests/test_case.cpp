@@ -370,29 +370,3 @@ TEST_CASE("the separation is in units of the longest perimeter over the number o
   CHECK(std::abs(separation_length(read(complete + "min_separation = 3\n"), bodies) - 3.0 * h) < 1e-14);
   CHECK(separation_length(read(complete + "min_separation_length = 0.02\n"), bodies) == 0.02);
 }
-
-TEST_CASE("mutilated case and bodies files are read or refused, never anything else") {
-  const Folder folder;
-  std::mt19937_64 random(5);
-  const std::string bodies = "# n: 2\na,b,x,y,theta,force_x\n1,2,0,0,0.5,1e-1\n\"1\",1,5,0,-3,-0.1\n";
-  constexpr std::string_view bytes("\0\n\r,\"#= -+.e0198naifx_\xFF\xEF", 24);
-  int refused = 0;
-  const auto mutilated = [&random, bytes](std::string text) {
-    for (auto edits = 1 + random() % 4; edits > 0; --edits) {
-      const auto at = random() % text.size(), removed = random() % 2, added = random() % 2;
-      text.replace(at, removed, added, bytes[random() % bytes.size()]);
-    }
-    return text;
-  };
-  for (int trial = 0; trial < 500; ++trial) {
-    const fs::path case_file = folder.write("case.txt", mutilated(complete));
-    const fs::path bodies_file = folder.write("bodies.csv", mutilated(bodies));
-    for (const std::string& message :
-         {refusal([&] { read_case(case_file); }), refusal([&] { read_bodies(bodies_file); })}) {
-      CHECK(message.find('\n') == std::string::npos);
-      refused += message != "accepted";
-    }
-  }
-  CHECK(refused > 200);
-  CHECK(refused < 1000);
-}

@@ -1,0 +1,33 @@
+// Pictures of a run for ParaView: the bodies' outlines as polygons with the numbers of each body, one file a state.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "simulation.hpp"
+
+namespace stokes {
+
+// A state as a legacy VTK file (version 3.0, binary, big-endian): the container, if there is one, as a closed line, each
+// body as a polygon of `outline_points` corners on its boundary. Every cell has body (its index, -1 for the
+// container), fixed (0 or 1), velocity, omega, contact_force and contact_torque, which are nan in a final
+// configuration. TIME holds the time.
+std::string vtk_file(const StepRecord& record, int outline_points = 96);
+
+// Writes FOLDER/step_<number of the step, at least six digits>.vtk at the start of every `output_every`-th step and for
+// the final configuration.
+class VtkWriter {
+ public:
+  // Makes the folder; a run that does not go on from a checkpoint deletes the files of that name which are there.
+  // InputError when it cannot be written.
+  VtkWriter(const std::filesystem::path& folder, int output_every, bool goes_on);
+
+  // Each file is replaced as a whole. NumericalError on a write error.
+  void write(const StepRecord& record) const;
+
+ private:
+  std::filesystem::path folder_;
+  int output_every_;
+};
+
+}  // namespace stokes
