@@ -30,6 +30,11 @@ Complex to_wall(const GapGradient& force, Complex from_centre, double wall_radiu
 
 }  // namespace
 
+double CouetteFlow::A() const {
+  const double r1 = inner_radius * inner_radius, r2 = outer_radius * outer_radius;
+  return (outer_angular_velocity * r2 - inner_angular_velocity * r1) / (r2 - r1);
+}
+
 double CouetteFlow::B() const {
   const double r1 = inner_radius * inner_radius, r2 = outer_radius * outer_radius;
   return (inner_angular_velocity - outer_angular_velocity) * r1 * r2 / (r2 - r1);
@@ -56,6 +61,10 @@ double order_parameter(const Suspension& bodies) {
 
 double effective_viscosity(const Suspension& bodies, const StepOutcome& outcome) {
   return ratio(outcome.reaction.back().torque, outcome.driving * couette_flow(bodies).inner_torque());
+}
+
+double effective_viscosity_outer(const Suspension& bodies, const StepOutcome& outcome) {
+  return ratio(-outcome.container.torque, outcome.driving * couette_flow(bodies).inner_torque());
 }
 
 ParticleStress particle_stress(const Suspension& bodies, const StepOutcome& outcome) {

@@ -12,7 +12,9 @@ struct CouetteFlow {
   double inner_radius, outer_radius;
   double inner_angular_velocity, outer_angular_velocity;
 
+  double A() const;
   double B() const;
+  double velocity(double r) const { return A() * r + B() / r; }
   double shear_rate(double r) const { return -2.0 * B() / (r * r); }  // r d(u_theta / r) / dr
   double inner_torque() const { return 4.0 * pi * B(); }              // of the inner cylinder on the fluid
 };
@@ -27,6 +29,8 @@ double order_parameter(const Suspension& bodies);
 // Torque of the inner cylinder with the bodies over that without: the effective viscosity, the fluid's own being 1.
 // NaN where the cylinders turn together.
 double effective_viscosity(const Suspension& bodies, const StepOutcome& outcome);
+// The same from the outer cylinder, whose torque is the opposite when the bodies bear no torque.
+double effective_viscosity_outer(const Suspension& bodies, const StepOutcome& outcome);
 
 // What the bodies add to the mean stress of the annulus, per area between the walls.
 struct BodyStress {
