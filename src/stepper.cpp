@@ -171,18 +171,6 @@ ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix) 
           {memory_.multipliers, memory_.multipliers.empty() ? ComplexVector() : moved(memory_.contact, now.nodes)}};
 }
 
-NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp) {
-  if (options_.lcp_matrix != LcpMatrix::near) return resolve(now, dt, ncp, options_.lcp_matrix);
-  NcpOptions at_first = ncp;
-  at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
-  NcpResult result = resolve(now, dt, at_first, LcpMatrix::near);
-  if (result.solved || result.unresolved) return result;
-  const int spent = result.iterations;
-  result = resolve(now, dt, ncp, LcpMatrix::full);
-  result.iterations += spent;
-  return result;
-}
-
 NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix) {
   const ContactMobility mobility = contact_mobility(now, matrix);
   const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
@@ -206,14 +194,34 @@ NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp,
   return solve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
 }
 
+// With columns of nearby bodies a failure may be theirs or that of nodes too sparse for the gaps, which leave the matrix
+// indefinite: finer nodes come first, whole columns last.
+NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& ncp) {
+  NcpOptions at_first = ncp;
+  at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
+  NcpResult result = resolve(configuration(driving), dt, at_first, LcpMatrix::near);
+  while (!result.solved && refine(result, driving)) result = resolve(*now_, dt, at_first, LcpMatrix::near);
+  if (result.solved) return result;
+  now_->ncp_iterations += result.iterations;
+  return resolve(*now_, dt, ncp, LcpMatrix::full);
+}
+
+// Goes on to the same configuration with denser clusters, after a failure; false when there are none.
+bool Stepper::refine(const NcpResult& failed, double driving) {
+  if (options_.refine != Refine::near || fineness_ >= finest) return false;
+  fineness_ *= 2.0;
+  const int spent = failed.iterations + now_->ncp_iterations;
+  configuration(driving).ncp_iterations = spent;
+  return true;
+}
+
 StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
-  NcpResult result = resolve(configuration(driving), dt, ncp);
-  while (result.unresolved && options_.refine == Refine::near && fineness_ < finest) {
-    fineness_ *= 2.0;
-    const int spent = result.iterations + now_->ncp_iterations;
-    Configuration& finer = configuration(driving);
-    finer.ncp_iterations = spent;
-    result = resolve(finer, dt, ncp);
+  NcpResult result;
+  if (options_.lcp_matrix == LcpMatrix::near) {
+    result = resolve_nearby(dt, driving, ncp);
+  } else {
+    result = resolve(configuration(driving), dt, ncp, options_.lcp_matrix);
+    while (result.unresolved && refine(result, driving)) result = resolve(*now_, dt, ncp, options_.lcp_matrix);
   }
   Configuration& now = *now_;
   now.ncp_iterations += result.iterations;

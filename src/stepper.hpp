@@ -131,7 +131,8 @@ class Stepper {
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   ContactMobility contact_mobility(Configuration& now, LcpMatrix matrix);
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix);
-  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp);
+  NcpResult resolve_nearby(double dt, double driving, const NcpOptions& ncp);
+  bool refine(const NcpResult& failed, double driving);
   void remember(Configuration& now, ComplexVector total, const std::vector<ActiveContact>& contacts);
   void turn_walls(double way);
   void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);
