@@ -166,7 +166,10 @@ class Iteration {
     if (const double size = amplification(B, b, lcp.z); size > largest_amplification)
       return concat("jammed: the contact forces would have to be ", size, " times those that part a pair by itself, ",
                     "against at most ", largest_amplification, ". Worst: ", name(worst()->constraint));
-    if (!lcp.solved) return concat(lcp.message, " Worst: ", name(worst()->constraint));
+    if (!lcp.solved) {
+      unresolved = static_cast<bool>(mobility_.response);  // of columns that are not the fluid's own, a jam or not
+      return concat(lcp.message, " Worst: ", name(worst()->constraint));
+    }
     for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
     return {};
   }

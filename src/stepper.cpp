@@ -194,13 +194,13 @@ NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp,
   return solve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
 }
 
-// With columns of nearby bodies a failure may be theirs or that of nodes too sparse for the gaps, which leave the matrix
-// indefinite: finer nodes come first, whole columns last.
+// With columns of nearby bodies a matrix that is no mobility may be due to them or to nodes too sparse for the gaps:
+// finer nodes come first, whole columns last.
 NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& ncp) {
   NcpOptions at_first = ncp;
   at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
   NcpResult result = resolve(configuration(driving), dt, at_first, LcpMatrix::near);
-  while (!result.solved && refine(result, driving)) result = resolve(*now_, dt, at_first, LcpMatrix::near);
+  while (result.unresolved && refine(result, driving)) result = resolve(*now_, dt, at_first, LcpMatrix::near);
   if (result.solved) return result;
   now_->ncp_iterations += result.iterations;
   return resolve(*now_, dt, ncp, LcpMatrix::full);
