@@ -35,7 +35,6 @@ Spikes write_series(const std::string& name, const Results& runs, const Results&
 void collect(const Results& results) {
   const Results runs = couette_results(results);
   Spikes largest;
-  std::vector<std::vector<double>> rows;
   double imbalance = 0.0;
   for (const CouetteSuspension& s : couette_suspensions)
     for (const std::string& name : finished_runs(runs, s)) {

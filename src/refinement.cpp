@@ -66,7 +66,7 @@ std::vector<Facing> facings(const Suspension& bodies, int points, double finenes
     centres.push_back(body.pose.centre);
     radii.push_back(body.shape.circumradius());
     if (has_own_nodes(body)) continue;
-    // Beyond, w >= g is more than the widest spacing asks for, and the mobility, even along two flanks, more than ...
+    // Beyond, w >= g is more than the widest spacing asks for, and even the mobility along two flanks exceeds the error.
     const double flank = radii.back() * radii.back() / body.shape.inradius();
     const double mobility = mobility_error(body.shape, points) * fineness / largest_mobility_error;
     reach = std::max({reach, 2.0 * pi * radii.back() / points * fineness / (wanted_spacing * least_density),
