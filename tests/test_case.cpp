@@ -6,6 +6,7 @@
 
 #include "base.hpp"
 #include "case.hpp"
+#include "refusal.hpp"
 
 using namespace stokes;
 namespace fs = std::filesystem;
@@ -43,16 +44,6 @@ using Overrides = std::vector<std::string>;
 Case read(std::string_view text, const Overrides& overrides = {}) {
   const Folder folder;
   return read_case(folder.write("case.txt", text), overrides);
-}
-
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 std::string case_refusal(std::string_view text, const Overrides& overrides = {}) {

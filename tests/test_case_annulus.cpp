@@ -5,6 +5,7 @@
 
 #include "case.hpp"
 #include "program.hpp"
+#include "refusal.hpp"
 
 using namespace stokes;
 
@@ -20,16 +21,6 @@ const std::string disc = "a,b,x,y,theta\n.5,.5,7,0,0\n";
 Case read(const std::string& text, const std::vector<std::string>& overrides = {}) {
   const Workspace here(text, disc);
   return read_case(here.path() / "case.txt", overrides);
-}
-
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 void check_contains(const std::string& message, const std::string& part) {

@@ -3,22 +3,13 @@
 
 #include "case.hpp"
 #include "input_fuzzer.hpp"
+#include "refusal.hpp"
 
 using namespace stokes;
 
 namespace {
 
 const std::string complete = "bodies = b.csv\nflow = shear\npoints_per_body = 32\ntime_step = 0.1\nend_time = 2\n";
-
-template <class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
