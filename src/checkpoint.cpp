@@ -7,7 +7,7 @@ namespace stokes {
 
 namespace {
 
-constexpr std::string_view first_line = "checkpoint of simulate, format 1";
+constexpr std::string_view first_line = "checkpoint of simulate, format 2";
 
 // What has to be the same for a run to go on: the case, and every number of the bodies at its beginning.
 std::vector<std::string> description_of(const Case& c, const Suspension& initial) {
@@ -105,6 +105,11 @@ class Reader {
     for (double& x : values) x = number();
     return values;
   }
+  Matrix matrix(std::string_view name, Eigen::Index rows, Eigen::Index cols) {
+    const std::vector<double> values = numbers(name);
+    if (static_cast<Eigen::Index>(values.size()) != rows * cols) throw std::runtime_error(concat(name, " has a wrong size"));
+    return Eigen::Map<const Matrix>(values.data(), rows, cols);
+  }
 
  private:
   void skip() {
@@ -145,9 +150,13 @@ void write_memory(Writer& writer, const StepperMemory& memory) {
   writer.line("memory", memory.path, memory.background.size(), memory.contacts.size());
   for (const StepperMemory::Density& density : memory.background) write_density(writer, density);
   write_density(writer, memory.total);
-  write_density(writer, memory.contact);
-  writer.line("multipliers", memory.multipliers.size());
-  for (const EarlierContact::Multiplier& m : memory.multipliers) writer.line("multiplier", m.a, m.b, m.region, m.value);
+  writer.line("fineness", memory.fineness, memory.steps_as_fine);
+  writer.line("known", memory.known.contacts.size(), memory.answers.size());
+  for (const KnownContacts::Contact& c : memory.known.contacts) writer.line("contact", c.a, c.b, c.region);
+  writer.line("rates", std::vector<double>(memory.known.rates.reshaped().begin(), memory.known.rates.reshaped().end()));
+  writer.line("multipliers",
+              std::vector<double>(memory.known.multipliers.reshaped().begin(), memory.known.multipliers.reshaped().end()));
+  for (const StepperMemory::Density& density : memory.answers) write_density(writer, density);
   for (const auto& [bodies, history] : memory.contacts) {
     writer.line("contact", bodies.first, bodies.second, history.size());
     for (const StepperMemory::Density& density : history) write_density(writer, density);
@@ -162,14 +171,20 @@ StepperMemory read_memory(Reader& reader) {
   const auto contacts = reader.integer<std::size_t>();
   for (StepperMemory::Density& density : memory.background) density = read_density(reader);
   memory.total = read_density(reader);
-  memory.contact = read_density(reader);
-  reader.begin("multipliers");
-  memory.multipliers.resize(reader.integer<std::size_t>());
-  for (EarlierContact::Multiplier& m : memory.multipliers) {
-    reader.begin("multiplier");
-    m.a = reader.integer<int>(), m.b = reader.integer<int>(), m.region = reader.integer<int>();
-    m.value = reader.number();
+  reader.begin("fineness");
+  memory.fineness = reader.number();
+  memory.steps_as_fine = reader.integer<int>();
+  reader.begin("known");
+  memory.known.contacts.resize(reader.integer<std::size_t>());
+  memory.answers.resize(reader.integer<std::size_t>());
+  for (KnownContacts::Contact& c : memory.known.contacts) {
+    reader.begin("contact");
+    c.a = reader.integer<int>(), c.b = reader.integer<int>(), c.region = reader.integer<int>();
   }
+  const auto rows = static_cast<Eigen::Index>(memory.known.contacts.size());
+  memory.known.rates = reader.matrix("rates", rows, rows);
+  memory.known.multipliers = reader.matrix("multipliers", rows, static_cast<Eigen::Index>(memory.answers.size()));
+  for (StepperMemory::Density& density : memory.answers) density = read_density(reader);
   for (std::size_t k = 0; k < contacts; ++k) {
     reader.begin("contact");
     const int a = reader.integer<int>(), b = reader.integer<int>();

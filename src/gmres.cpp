@@ -108,7 +108,7 @@ class Cycle {
 GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Vector& b,
                   const Vector& guess, const GmresOptions& options) {
   GmresResult result;
-  const double size = b.norm(), scale = std::max(size, options.scale);
+  const double size = b.norm(), scale = options.scale > 0.0 ? std::max(options.scale, 1e-3 * size) : size;
   result.x = guess.size() == b.size() && size > 0.0 ? guess : Vector::Zero(b.size());
   if (size == 0.0) {
     result.converged = true;

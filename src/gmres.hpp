@@ -10,16 +10,16 @@ namespace stokes {
 using LinearOperator = std::function<void(const Vector& in, Vector& out)>;
 
 struct GmresOptions {
-  double tolerance = 1e-8;   // on the true residual |b - A x| / max(|b|, scale)
+  double tolerance = 1e-8;   // on the true residual |b - A x| / s with s = |b|, or
+  double scale = 0.0;        // s, if given: of a sum that A x is a part of; |b| / 1000 is the least
   int max_iterations = 1000;
   int restart = 300;         // largest Krylov basis kept
-  double scale = 0.0;        // of what x is only a small part of, if it is
 };
 
 struct GmresResult {
   Vector x;
   int iterations = 0;     // operator applications inside the Krylov loop
-  double residual = 0.0;  // |b - A x| / max(|b|, scale), evaluated from x
+  double residual = 0.0;  // |b - A x| / s, evaluated from x
   bool converged = false;
 };
 

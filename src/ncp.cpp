@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "lcp.hpp"
 #include "text.hpp"
@@ -16,16 +15,20 @@ namespace {
 // multiplier now exerts with the column M' f of that force.
 struct Candidate {
   ContactConstraint constraint;
-  GapGradient force;
-  Response column;
+  GapGradient force{};
+  Response column{};       // empty where its rates are known already
   double multiplier = 0.0;
   double committed = 0.0;  // multipliers of forces that are no longer unknowns
-  double answered = 0.0;   // multiplier, both kinds, in the latest answer of the whole suspension
+  double change = 0.0;     // of the multiplier, from the motion before to the present one
+  std::vector<double> answered{};  // multipliers, both kinds, of the known answers of the whole suspension
+
+  const GapGradient& gradient() const { return constraint.gradient; }
+  const GapGradient& start_gradient() const { return force; }
 };
 
 constexpr double largest_amplification = 1e6;  // a wedge that is as slim is a jam
 
-using Identity = std::tuple<int, int, int>;
+using Identity = KnownContacts::Contact;
 Identity identity(const ContactConstraint& c) { return {c.a, c.b, c.region}; }
 
 bool same(const GapGradient& u, const GapGradient& v) {
@@ -64,7 +67,8 @@ class Iteration {
         base_(contact_free), base_wrenches_{std::vector<Wrench>(start.size()), {}} {
     for (std::size_t i = 0; i < start.size(); ++i)
       if (start[i].fixed) fixed_.push_back(static_cast<int>(i));
-    answer_.density = mobility.earlier.density;
+    known_ = mobility.known;
+    answers_ = mobility.answers;
   }
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
@@ -75,18 +79,18 @@ class Iteration {
       tracked.push_back({c.constraint.a, c.constraint.b});
       c.constraint.value = 0.0;  // a contact that is no longer found has opened
     }
-    // What the first answer starts from holds the forces of earlier contacts, which take their columns to be taken back.
+    // Known contacts take part from the start.
     if (candidates_.empty())
-      for (const EarlierContact::Multiplier& m : mobility_.earlier.multipliers) tracked.push_back({m.a, m.b});
+      for (const Identity& c : known_.contacts) tracked.push_back({c.a, c.b});
     tracked.erase(std::unique(tracked.begin(), tracked.end()), tracked.end());
     for (const ContactConstraint& found : constraints_(poses_, tracked)) {
-      const auto place = std::lower_bound(candidates_.begin(), candidates_.end(), identity(found),
-                                          [](const Candidate& c, Identity i) { return identity(c.constraint) < i; });
+      const auto place = place_of(identity(found));
       if (place != candidates_.end() && identity(place->constraint) == identity(found))
         place->constraint = found;
       else
-        candidates_.insert(place, {found, {}, {}, 0.0, 0.0, earlier_multiplier(found)});
+        candidates_.insert(place, {.constraint = found, .force = found.force, .answered = known_multipliers(identity(found))});
     }
+    learn_from_motion();
   }
 
   // The candidate farthest from what is required of it, or none when all are within tolerance.
@@ -116,14 +120,14 @@ class Iteration {
   // columns of few nodes or of an approximation may miss).
   std::string unphysical(bool check_symmetry) const {
     const auto m = static_cast<Eigen::Index>(candidates_.size());
-    Matrix M(m, m);
-    for (Eigen::Index l = 0; l < m; ++l)
-      for (Eigen::Index k = 0; k < m; ++k)
-        M(l, k) = rate(candidates_[l].constraint, candidates_[l].force, candidates_[k].column.velocity);
+    const Matrix M = mobility_.learns ? known_.rates : rates_by_columns(&Candidate::start_gradient);
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(M(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint), " does not part them (mobility ",
                       M(l, l), "): the points per body do not resolve so small a gap; try refine = near");
+    if (const double power = contact_power(); power < 0.0)
+      return concat("the contact forces do negative work (power ", power, ") on the bodies, worst of them ",
+                    name(worst()->constraint), ": the points per body do not resolve so small a gap; try refine = near");
     for (Eigen::Index l = 0; check_symmetry && l < m; ++l)
       for (Eigen::Index k = 0; k < l; ++k)
         if (std::abs(M(l, k) - M(k, l)) > 0.1 * std::sqrt(M(l, l) * M(k, k)))
@@ -133,30 +137,26 @@ class Iteration {
     return {};
   }
 
-  // The columns of all contacts, and one LCP for the multipliers; its failure, if any.
+  // One LCP for the multipliers; its failure, if any.
   std::string solve(const NcpOptions& options, bool& unresolved) {
     const Eigen::Index m = static_cast<Eigen::Index>(candidates_.size());
-    Matrix B(m, m);
-    Vector b(m);
-    for (Eigen::Index l = 0; l < m; ++l) {
-      b[l] = candidates_[l].constraint.value;
-      for (const Candidate& k : candidates_)  // take back what the present forces did to the value
-        if (k.multiplier > 0.0) b[l] -= dt_ * k.multiplier * rate(candidates_[l].constraint, k.column.velocity);
-    }
-    for (Candidate& c : candidates_) {
-      if (!c.column.velocity.empty() && same(c.force, c.constraint.force)) continue;
-      c.force = c.constraint.force;
-      ContactWrenches unit{std::vector<Wrench>(start_.size()), {}};
-      unit.add(c.constraint, c.force, 1.0);
-      c.column = mobility_.column(on_fluid(unit));
+    Vector b(m);  // values less what the present forces did to them
+    for (Eigen::Index l = 0; l < m; ++l) b[l] = candidates_[l].constraint.value;
+    if (mobility_.learns) {
+      extend_known();
+      for (Eigen::Index k = 0; k < m; ++k) b -= dt_ * candidates_[k].multiplier * known_.rates.col(k);
+    } else {
+      for (Eigen::Index l = 0; l < m; ++l)
+        for (const Candidate& k : candidates_)
+          if (k.multiplier > 0.0) b[l] -= dt_ * k.multiplier * rate(candidates_[l].constraint, k.column.velocity);
+      for (Candidate& c : candidates_)
+        if (c.column.velocity.empty() || !same(c.force, c.constraint.force)) find_column(c);
     }
     if (const std::string problem = unphysical(options.check_mobility && !mobility_.response); !problem.empty()) {
       unresolved = true;
       return problem;
     }
-    for (Eigen::Index l = 0; l < m; ++l)
-      for (Eigen::Index k = 0; k < m; ++k)
-        B(l, k) = dt_ * rate(candidates_[l].constraint, candidates_[k].column.velocity);
+    const Matrix B = dt_ * (mobility_.learns ? known_.rates : rates_by_columns(&Candidate::gradient));
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(B(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint),
@@ -170,7 +170,10 @@ class Iteration {
       unresolved = static_cast<bool>(mobility_.response);  // of columns that are not the fluid's own, a jam or not
       return concat(lcp.message, " Worst: ", name(worst()->constraint));
     }
-    for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
+    for (Eigen::Index l = 0; l < m; ++l) {
+      candidates_[l].change = lcp.z[l] - candidates_[l].multiplier;
+      candidates_[l].multiplier = lcp.z[l];
+    }
     return {};
   }
 
@@ -179,6 +182,7 @@ class Iteration {
     result.container_wrench = wrenches_.container;
     for (const Candidate& c : candidates_)
       if (c.multiplier + c.committed > 0.0) result.contacts.push_back({c.constraint, c.multiplier + c.committed});
+    result.known = known_contacts();
     result.motion = std::move(motion_);
     result.poses = std::move(poses_);
   }
@@ -233,18 +237,125 @@ class Iteration {
     return true;
   }
 
-  double earlier_multiplier(const ContactConstraint& c) const {
-    for (const EarlierContact::Multiplier& m : mobility_.earlier.multipliers)
-      if (Identity{m.a, m.b, m.region} == identity(c)) return m.value;
-    return 0.0;
+  std::vector<Candidate>::iterator place_of(const Identity& wanted) {
+    return std::lower_bound(candidates_.begin(), candidates_.end(), wanted,
+                            [](const Candidate& c, const Identity& i) { return identity(c.constraint) < i; });
   }
 
-  // The latest answer, changed by the columns as the forces changed since.
-  ComplexVector expected_density() const {
-    ComplexVector density = answer_.density;
-    if (density.size() == 0) density = ComplexVector::Zero(free_.density.size());
+  std::vector<double> known_multipliers(const Identity& contact) const {
+    const Eigen::Index row = mobility_.known.find(contact);
+    std::vector<double> multipliers(answers_.size());
+    for (std::size_t j = 0; row >= 0 && j < mobility_.answers.size(); ++j)
+      multipliers[j] = mobility_.known.multipliers(row, static_cast<Eigen::Index>(j));
+    return multipliers;
+  }
+
+  void find_column(Candidate& c) {
+    c.force = c.constraint.force;
+    ContactWrenches unit{std::vector<Wrench>(start_.size()), {}};
+    unit.add(c.constraint, c.force, 1.0);
+    c.column = mobility_.column(on_fluid(unit));
+  }
+
+  // Rates of all values, or of others with gradients to choose, by all columns.
+  Matrix rates_by_columns(const GapGradient& (Candidate::*gradient)() const) const {
+    const auto m = static_cast<Eigen::Index>(candidates_.size());
+    Matrix rates(m, m);
+    for (Eigen::Index l = 0; l < m; ++l)
+      for (Eigen::Index k = 0; k < m; ++k)
+        rates(l, k) = rate(candidates_[l].constraint, (candidates_[l].*gradient)(), candidates_[k].column.velocity);
+    return rates;
+  }
+
+  // Rates of all candidates: those known, and by columns where they are not or where a force has changed.
+  void extend_known() {
+    const auto m = static_cast<Eigen::Index>(candidates_.size());
+    KnownContacts all{{}, Matrix(m, m), {}};
+    std::vector<Eigen::Index> known;
+    for (Candidate& c : candidates_) {
+      const bool changed = !same(c.force, c.constraint.force);
+      known.push_back(changed ? -1 : known_.find(identity(c.constraint)));
+      if (known.back() < 0) find_column(c);
+      all.contacts.push_back(identity(c.constraint));
+    }
+    const auto by_column = [this](Eigen::Index l, Eigen::Index k) {
+      return rate(candidates_[l].constraint, candidates_[k].column.velocity);
+    };
+    for (Eigen::Index l = 0; l < m; ++l)
+      for (Eigen::Index k = 0; k <= l; ++k)
+        all.rates(l, k) = all.rates(k, l) = known[l] >= 0 && known[k] >= 0 ? known_.rates(known[l], known[k])
+                                            : known[l] >= 0                ? by_column(l, k)
+                                            : known[k] >= 0                ? by_column(k, l)
+                                                                           : 0.5 * (by_column(l, k) + by_column(k, l));
+    known_ = std::move(all);
+  }
+
+  // Rate of a value by the contact forces.
+  double contact_rate(const ContactConstraint& c) const { return rate(c, motion_.velocity) - rate(c, free_.velocity); }
+
+  // Of the forces that were answered; zero without any.
+  double contact_power() const {
+    double power = 0.0;
     for (const Candidate& c : candidates_)
-      if (c.column.density.size() > 0) density += (c.multiplier + c.committed - c.answered) * c.column.density;
+      if (mobility_.learns && c.multiplier > 0.0) power += c.multiplier * contact_rate(c.constraint);
+    return power;
+  }
+
+  void learn_from_motion() {
+    if (!mobility_.learns || before_.empty()) return;
+    const auto m = static_cast<Eigen::Index>(known_.contacts.size());
+    Vector change(m), changed(m), present(m);
+    for (Eigen::Index l = 0; l < m; ++l) {
+      const Candidate& c = *place_of(known_.contacts[l]);  // whose force moved something, so it is there
+      change[l] = c.change;
+      present[l] = c.multiplier;
+      changed[l] = rate(c.constraint, motion_.velocity) - rate(c.constraint, before_);
+    }
+    learn(known_.rates, change, changed, present);
+    before_.clear();
+  }
+
+  // Of the contacts that press, or did at the end of the step before.
+  KnownContacts known_contacts() const {
+    const std::size_t earlier = mobility_.answers.size();
+    std::vector<const Candidate*> kept;
+    KnownContacts result;
+    for (const Candidate& c : candidates_) {
+      const bool known = mobility_.learns ? known_.find(identity(c.constraint)) >= 0 : !c.column.velocity.empty();
+      if (!known || (c.multiplier == 0.0 && (earlier == 0 || c.answered[earlier - 1] == 0.0))) continue;
+      kept.push_back(&c);
+      result.contacts.push_back(identity(c.constraint));
+    }
+    const auto m = static_cast<Eigen::Index>(kept.size());
+    result.rates.resize(m, m);
+    result.multipliers.resize(m, static_cast<Eigen::Index>(earlier) + 1);
+    const auto by_column = [this](const Candidate& l, const Candidate& k) { return rate(l.constraint, k.column.velocity); };
+    for (Eigen::Index l = 0; l < m; ++l) {
+      for (Eigen::Index k = 0; k < m; ++k)
+        result.rates(l, k) = mobility_.learns ? known_.rates(known_.find(result.contacts[l]), known_.find(result.contacts[k]))
+                                              : 0.5 * (by_column(*kept[l], *kept[k]) + by_column(*kept[k], *kept[l]));
+      for (std::size_t j = 0; j < earlier; ++j) result.multipliers(l, static_cast<Eigen::Index>(j)) = kept[l]->answered[j];
+      result.multipliers(l, static_cast<Eigen::Index>(earlier)) = kept[l]->multiplier;
+    }
+    return result;
+  }
+
+  // The combination of known answers that is nearest to the present forces, changed by the columns to what they are.
+  ComplexVector expected_density() const {
+    const auto m = static_cast<Eigen::Index>(candidates_.size()), n = static_cast<Eigen::Index>(answers_.size());
+    Matrix answered(m, n);
+    Vector wanted(m), scale = Vector::Ones(m);
+    for (Eigen::Index l = 0; l < m; ++l) {
+      const Candidate& c = candidates_[l];
+      wanted[l] = c.multiplier + c.committed;
+      if (mobility_.learns) scale[l] = std::sqrt(known_.rates(l, l));
+      for (Eigen::Index j = 0; j < n; ++j) answered(l, j) = c.answered[j];
+    }
+    const Vector part = nearest_combination(answered, wanted, scale), rest = wanted - answered * part;
+    ComplexVector density = ComplexVector::Zero(free_.density.size());
+    for (Eigen::Index j = 0; j < n; ++j) density += part[j] * answers_[j];
+    for (Eigen::Index l = 0; l < m; ++l)
+      if (candidates_[l].column.density.size() > 0) density += rest[l] * candidates_[l].column.density;
     return density;
   }
 
@@ -257,10 +368,12 @@ class Iteration {
     }
     if (forced && mobility_.response) {
       balance_changes();
-      answer_ = mobility_.response(on_fluid(wrenches_), expected_density());
-      for (Candidate& c : candidates_) c.answered = c.multiplier + c.committed;
+      const Response answer = mobility_.response(on_fluid(wrenches_), expected_density());
+      answers_.push_back(answer.density);
+      for (Candidate& c : candidates_) c.answered.push_back(c.multiplier + c.committed);
+      before_ = std::move(motion_.velocity);
       motion_ = free_;
-      add_motion(answer_, 1.0);
+      add_motion(answer, 1.0);
     } else if (forced && balance_changes()) {
       motion_ = free_;
       add_motion(mobility_.column(on_fluid(wrenches_)), 1.0);
@@ -284,7 +397,9 @@ class Iteration {
   std::vector<Candidate> candidates_;  // sorted by pair and region
   Response base_;                      // motion with the committed forces
   ContactWrenches base_wrenches_;      // and these
-  Response answer_;                    // of the whole suspension to contact forces, where the columns are not its own
+  KnownContacts known_;                // their rates: of all candidates once an LCP was solved
+  std::vector<ComplexVector> answers_; // densities of the whole suspension for contact forces
+  std::vector<RigidVelocity> before_;  // the motion that `change` of the multipliers made the present one of
   Response motion_;
   ContactWrenches wrenches_;
   std::vector<Pose> poses_;

@@ -3,7 +3,9 @@
 // solved as a sequence of linear complementarity problems for the TOTAL multipliers:
 //   0 <= value_l - r_l + Sum_k B_lk lambda_k  perp  lambda_l >= 0,  B_lk = dt grad_l . M' f_k,
 // where M' is M or an approximation of it and r_l = dt grad_l . M' (present contact forces). With M' = M the
-// fluid is linear, so that once M f_k is known an iteration costs no Stokes solve.
+// fluid is linear, so that once M f_k is known an iteration costs no Stokes solve. Otherwise every iterate is moved
+// with M, and M' may learn from it: for the change s of the multipliers and the change y it made in the rates of the
+// constraints, a symmetric update of rank one makes M' s = y (SR1), and what it has learnt goes from step to step.
 //
 // Fixed bodies have no mobility: they stay where they are, and the forces on them and on the container do
 // nothing to the fluid. They are reactions, only reported. Between obstacles a body may be jammed: then no forces
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "contact.hpp"
+#include "known_contacts.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -44,6 +47,23 @@ struct NcpOptions {
   bool check_mobility = false;  // columns for symmetry: the forces are to be gradients at the start of the step
 };
 
+// Violated and tracked constraints at trial poses (GapCollector::collect).
+using ConstraintFunction =
+    std::function<std::vector<ContactConstraint>(const std::vector<Pose>&, const std::vector<std::pair<int, int>>&)>;
+// M f: the response of the suspension to given forces and torques, zero for fixed bodies.
+using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
+
+// The same, solved from the density `guess`.
+using ResponseFunction = std::function<Response(const std::vector<Wrench>&, const ComplexVector& guess)>;
+
+struct ContactMobility {
+  MobilityFunction column;      // M' f for the LCP matrix
+  ResponseFunction response{};  // M f for the motion; empty if M' = M, whose columns then superpose
+  bool learns = false;          // M' does, from the answers M f
+  KnownContacts known{};        // what it begins with
+  std::vector<ComplexVector> answers{};  // the densities of known.multipliers
+};
+
 struct NcpResult {
   bool solved = false;
   std::string failure;                 // empty when solved
@@ -54,31 +74,7 @@ struct NcpResult {
   Response motion;                     // what moves the bodies there
   std::vector<Wrench> wrenches;        // contact force and torque on each body, fixed or not
   Wrench container_wrench;             // and on the container, about its centre
-};
-
-// Violated and tracked constraints at trial poses (GapCollector::collect).
-using ConstraintFunction =
-    std::function<std::vector<ContactConstraint>(const std::vector<Pose>&, const std::vector<std::pair<int, int>>&)>;
-// M f: the response of the suspension to given forces and torques, zero for fixed bodies.
-using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
-
-// The same, solved from the density `guess`.
-using ResponseFunction = std::function<Response(const std::vector<Wrench>&, const ComplexVector& guess)>;
-
-// Contact forces and the density of their answer, as an earlier step left them: near those of this one.
-struct EarlierContact {
-  struct Multiplier {
-    int a, b, region;
-    double value;
-  };
-  std::vector<Multiplier> multipliers;
-  ComplexVector density;  // on the nodes of this step; empty if there was no contact
-};
-
-struct ContactMobility {
-  MobilityFunction column;    // M' f for the LCP matrix
-  ResponseFunction response{};  // M f for the motion; empty if M' = M, whose columns then superpose
-  EarlierContact earlier{};     // where the first response starts from
+  KnownContacts known;                 // whose newest multipliers are those of the motion
 };
 
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with

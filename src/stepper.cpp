@@ -23,6 +23,7 @@ constexpr std::size_t extrapolation_points = 3;
 constexpr double column_tolerance = 1e-6;
 constexpr int nearby_iterations = 8;
 constexpr double finest = 4.0;  // largest fineness of clusters
+constexpr int fine_steps = 20;  // that clusters stay fine, until coarser ones are tried again
 
 // A density on other nodes, boundary by boundary.
 ComplexVector moved(const StepperMemory::Density& density, const std::vector<Discretisation>& nodes) {
@@ -98,10 +99,10 @@ ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& h
 }
 
 Stepper::Configuration& Stepper::configuration(double driving) {
-  if (now_ && now_->driving == driving && now_->fineness == fineness_) return *now_;
+  if (now_ && now_->driving == driving && now_->fineness == memory_.fineness) return *now_;
   const bool again = now_ && now_->driving == driving;
   const int spent = again ? now_->gmres_iterations : 0, solves = again ? now_->stokes_solves : 0;
-  now_.emplace(bodies_, options_, shapes_, driving, fineness_);
+  now_.emplace(bodies_, options_, shapes_, driving, memory_.fineness);
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   StokesSolution solution;
@@ -167,8 +168,15 @@ ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix) 
   if (options_.coupling == Coupling::local) return {alone, {}, {}};
   if (matrix == LcpMatrix::full) return {column, {}, {}};
   if (matrix == LcpMatrix::self) return {alone, full, {}};
-  return {nearby, full,
-          {memory_.multipliers, memory_.multipliers.empty() ? ComplexVector() : moved(memory_.contact, now.nodes)}};
+  if (options_.contact == ContactModel::stiv) return {nearby, full};  // whose forces are others at every iterate
+  ContactMobility mobility{nearby, full, true, memory_.known};
+  for (const StepperMemory::Density& answer : memory_.answers) mobility.answers.push_back(moved(answer, now.nodes));
+  return mobility;
+}
+
+void Stepper::forget_contacts() {
+  memory_.known = {};
+  memory_.answers.clear();
 }
 
 NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix) {
@@ -194,12 +202,17 @@ NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp,
   return solve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
 }
 
-// With columns of nearby bodies a matrix that is no mobility may be due to them or to nodes too sparse for the gaps:
-// finer nodes come first, whole columns last.
+// A failure may be due to what was learnt in other configurations, to columns of nearby bodies or to nodes too sparse
+// for the gaps: columns anew come first, then finer nodes, whole columns last.
 NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& ncp) {
   NcpOptions at_first = ncp;
   at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
   NcpResult result = resolve(configuration(driving), dt, at_first, LcpMatrix::near);
+  if (!result.solved && !memory_.known.contacts.empty()) {
+    forget_contacts();
+    now_->ncp_iterations += result.iterations;
+    result = resolve(*now_, dt, at_first, LcpMatrix::near);
+  }
   while (result.unresolved && refine(result, driving)) result = resolve(*now_, dt, at_first, LcpMatrix::near);
   if (result.solved) return result;
   now_->ncp_iterations += result.iterations;
@@ -208,8 +221,9 @@ NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& n
 
 // Goes on to the same configuration with denser clusters, after a failure; false when there are none.
 bool Stepper::refine(const NcpResult& failed, double driving) {
-  if (options_.refine != Refine::near || fineness_ >= finest) return false;
-  fineness_ *= 2.0;
+  if (options_.refine != Refine::near || memory_.fineness >= finest) return false;
+  memory_.fineness *= 2.0;
+  memory_.steps_as_fine = 0;
   const int spent = failed.iterations + now_->ncp_iterations;
   configuration(driving).ncp_iterations = spent;
   return true;
@@ -239,7 +253,7 @@ StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
   return outcome;
 }
 
-void Stepper::remember(Configuration& now, ComplexVector total, const std::vector<ActiveContact>& active) {
+void Stepper::remember(Configuration& now, ComplexVector total, KnownContacts known) {
   const auto append = [&](std::vector<StepperMemory::Density>& history, ComplexVector density) {
     history.push_back({memory_.path, now.nodes, std::move(density)});
     if (history.size() > extrapolation_points) history.erase(history.begin());
@@ -254,12 +268,18 @@ void Stepper::remember(Configuration& now, ComplexVector total, const std::vecto
       append(history, std::move(response.density));
     }
   memory_.contacts = std::move(contacts);
-  memory_.contact = {};
-  memory_.multipliers.clear();
-  if (options_.lcp_matrix == LcpMatrix::near && !active.empty()) {
-    memory_.contact = {memory_.path, now.nodes, total - now.contact_free.density};
-    for (const ActiveContact& c : active)
-      memory_.multipliers.push_back({c.constraint.a, c.constraint.b, c.constraint.region, c.multiplier});
+  if (options_.lcp_matrix == LcpMatrix::near && options_.contact == ContactModel::gap && !known.contacts.empty()) {
+    if (known.multipliers.cols() == 1) memory_.answers.clear();
+    append(memory_.answers, total - now.contact_free.density);
+    memory_.known = std::move(known);
+    memory_.known.multipliers = memory_.known.multipliers.rightCols(static_cast<Eigen::Index>(memory_.answers.size())).eval();
+  } else {
+    forget_contacts();
+  }
+  if (memory_.fineness > 1.0 && ++memory_.steps_as_fine >= fine_steps) {
+    memory_.fineness *= 0.5;
+    memory_.steps_as_fine = 0;
+    forget_contacts();  // which would hide that the nodes do not resolve them
   }
   memory_.total = {memory_.path, now.nodes, std::move(total)};
 }
@@ -285,10 +305,9 @@ void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutco
   outcome.density_tail = now.system.density_tail(result.motion.density);
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
-  remember(now, std::move(result.motion.density), outcome.contacts);
+  remember(now, std::move(result.motion.density), std::move(result.known));
   turn_walls(now.driving * dt);
   now_.reset();
-  fineness_ = 1.0;
 }
 
 double Stepper::geometric_step_limit(double driving) {

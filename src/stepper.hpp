@@ -27,8 +27,9 @@ enum class Coupling {
 // The mobility in the matrix of the linear complementarity problems.
 enum class LcpMatrix {
   full,  // the one that moves the bodies: a Stokes solve for each contact
-  near,  // the bodies around each contact as if there were no others; every iterate is then moved with the full
-         // mobility: one Stokes solve for each iteration. Where that does not converge, as full
+  near,  // at first the bodies around each contact as if there were no others. Every iterate is moved with the full
+         // mobility, one Stokes solve each, from which the matrix learns, in this step and for the next ones. Where
+         // that does not converge, as full
   self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
          // Coupling::local
 };
@@ -77,10 +78,12 @@ struct StepperMemory {
   double path = 0.0;
   std::vector<Density> background;  // of the latest steps per unit of driving, the newest last
   Density total;                    // of the latest step, contact forces included
-  Density contact;                  // of the latest step's contact forces alone, where LcpMatrix::near found them
-  std::vector<EarlierContact::Multiplier> multipliers;  // and these
+  KnownContacts known;              // of the latest step, with LcpMatrix::near
+  std::vector<Density> answers;     // those of known.multipliers, of contact forces alone
   // Answers to unit forces between the bodies that were in contact in the latest step, newest last.
   std::map<std::pair<int, int>, std::vector<Density>> contacts;
+  double fineness = 1.0;  // of the clusters, with which the next configuration begins
+  int steps_as_fine = 0;  // how many it has lasted
 };
 
 class Stepper {
@@ -99,7 +102,7 @@ class Stepper {
   // bodies; otherwise they stay as they are, bit for bit, and another attempt reuses what was solved.
   // A contact force that does not part its bodies, or mobilities that are not symmetric, mean nodes too sparse for
   // the gap: with Refine::near the configuration is solved again with twice and four times the density of its
-  // clusters before the step fails. NumericalError when GMRES fails.
+  // clusters before the step fails, and the next ones begin with that. NumericalError when GMRES fails.
   StepOutcome attempt(double dt, double driving, const NcpOptions& ncp);
 
   // The largest step in which, by the contact-free velocities, no body turns by more than 0.2, no two neighbours
@@ -130,10 +133,11 @@ class Stepper {
   Response respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   ContactMobility contact_mobility(Configuration& now, LcpMatrix matrix);
+  void forget_contacts();
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix);
   NcpResult resolve_nearby(double dt, double driving, const NcpOptions& ncp);
   bool refine(const NcpResult& failed, double driving);
-  void remember(Configuration& now, ComplexVector total, const std::vector<ActiveContact>& contacts);
+  void remember(Configuration& now, ComplexVector total, KnownContacts known);
   void turn_walls(double way);
   void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);
 
@@ -141,7 +145,6 @@ class Stepper {
   StepperOptions options_;
   ShapeCache shapes_;
   std::optional<Configuration> now_;
-  double fineness_ = 1.0;  // of the clusters of this configuration
   StepperMemory memory_;
 };
 

@@ -164,7 +164,7 @@ StokesSolution StokesSystem::solve_data(const BoundarySet& set, ComplexVector da
   const GmresResult result = gmres([&](const Vector& in, Vector& out) { apply(set, in, out); },
                                    [&](const Vector& in, Vector& out) { preconditioner_->apply(set, in, out); }, rhs,
                                    guess.size() == set.size() ? Vector(as_real(guess)) : Vector(),
-                                   {.tolerance = tolerance, .max_iterations = options_.gmres_max_iterations, .scale = scale});
+                                   {.tolerance = tolerance, .scale = scale, .max_iterations = options_.gmres_max_iterations});
   if (!result.converged)
     throw NumericalError(concat("GMRES stopped at a relative residual of ", result.residual, " after ", result.iterations,
                                 " iterations; the tolerance is ", tolerance,

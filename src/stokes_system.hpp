@@ -69,7 +69,7 @@ class StokesSystem {
 
   // Rigid velocities and densities for a background flow and given forces and torques (one per body, not read for
   // fixed ones; empty: none). `guess`: a density to start from (empty: zero). The tolerance is relative to the norm of
-  // the data or to `scale`, if that is larger: the data_norm of what the solution is added to. NumericalError when
+  // the data or to `scale`, if given: the data_norm of what the solution is added to. NumericalError when
   // GMRES fails.
   StokesSolution solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& guess = {}, double scale = 0.0) const;

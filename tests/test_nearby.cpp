@@ -274,10 +274,10 @@ TEST_CASE("what a step leaves to the next one saves GMRES iterations and does no
   options.lcp_matrix = LcpMatrix::near;
   Stepper stepper(crowd_at_wall(options.separation), options);
   for (int k = 0; k < 2; ++k) REQUIRE(stepper.attempt(0.003, 1.0, {}).accepted);
-  REQUIRE(stepper.memory().multipliers.size() > 0);
+  REQUIRE(stepper.memory().known.contacts.size() > 0);
   CHECK(stepper.memory().contacts.empty());
   StepperMemory without_contacts = stepper.memory();
-  without_contacts.contact = {}, without_contacts.multipliers.clear();
+  without_contacts.known = {}, without_contacts.answers.clear();
   std::vector<Pose> poses;
   for (const Body& body : stepper.bodies()) poses.push_back(body.pose);
   Stepper forgetful(stepper.bodies(), options);

@@ -1,0 +1,39 @@
+#include "known_contacts.hpp"
+
+#include <algorithm>
+#include <eigen3/Eigen/Cholesky>
+
+namespace stokes {
+
+namespace {
+
+constexpr double least_change = 0.02;     // of the multipliers
+constexpr double least_curvature = 0.01;  // cosine between s and what the matrix misses
+constexpr double damping = 1e-3;          // of combinations
+
+}  // namespace
+
+Eigen::Index KnownContacts::find(const Contact& contact) const {
+  const auto place = std::lower_bound(contacts.begin(), contacts.end(), contact);
+  return place != contacts.end() && *place == contact ? place - contacts.begin() : -1;
+}
+
+void learn(Matrix& rates, const Vector& s, const Vector& y, const Vector& present) {
+  const Vector scale = rates.diagonal().cwiseSqrt(), missed = y - rates * s;
+  const double change = s.cwiseProduct(scale).norm(), curvature = missed.dot(s);
+  if (change <= least_change * present.cwiseProduct(scale).norm() ||
+      std::abs(curvature) <= least_curvature * change * missed.cwiseQuotient(scale).norm())
+    return;
+  rates += missed * (missed / curvature).transpose();
+}
+
+Vector nearest_combination(const Matrix& known, const Vector& wanted, const Vector& scale) {
+  const Matrix A = scale.asDiagonal() * known;
+  Matrix normal = A.transpose() * A;
+  const double size = normal.trace();
+  if (!(size > 0.0)) return Vector::Zero(known.cols());
+  normal.diagonal().array() += damping * damping * size;
+  return normal.llt().solve(A.transpose() * scale.cwiseProduct(wanted));
+}
+
+}  // namespace stokes
