@@ -11,11 +11,28 @@
 
 namespace stokes {
 
-// Velocity at x, on or outside the body, of a body that exerts `wrench` (force, and torque about its
-// centre) on an otherwise quiescent unbounded fluid; up to the constant velocity that the logarithm
-// leaves free, which log_length, the unit of the distances in it, settles.
-Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
-                            double log_length = 1.0);
+// The flow of a body that exerts `wrench` (force, and torque about its centre) on an otherwise quiescent unbounded
+// fluid; up to the constant velocity that the logarithm leaves free, which log_length, the unit of the distances in it,
+// settles.
+class CompletionFlow {
+ public:
+  CompletionFlow(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length = 1.0);
+
+  // At x on or outside the body.
+  Complex velocity(Complex x) const;
+
+ private:
+  Complex centre_, axis_;
+  double A_, B_;
+  Complex focus_;  // of a > b real, otherwise imaginary
+  double log_unit_;
+  Complex force_, torque_;  // body frame, over 4 pi and times i over 4 pi (A^2 + B^2)
+};
+
+inline Complex completion_velocity(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
+                                   double log_length = 1.0) {
+  return CompletionFlow(shape, pose, wrench, log_length).velocity(x);
+}
 
 // The same with pressure, which vanishes at infinity, and velocity gradient. Accurate to round-off up to the body.
 PointFlow completion_flow(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,

@@ -10,10 +10,10 @@ namespace stokes {
 using LinearOperator = std::function<void(const Vector& in, Vector& out)>;
 
 struct GmresOptions {
-  double tolerance = 1e-8;   // on the true residual |b - A x| / s with s = |b|, or
-  double scale = 0.0;        // s, if given: of a sum that A x is a part of; |b| / 1000 is the least
+  double tolerance = 1e-8;   // on the true residual |b - A x| / s, s = |b| or `scale`
   int max_iterations = 1000;
   int restart = 300;         // largest Krylov basis kept
+  double scale = 0.0;        // if > 0: s, of a sum that A x is a part of; |b| / 1000 at least
 };
 
 struct GmresResult {

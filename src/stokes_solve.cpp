@@ -108,6 +108,9 @@ ComplexVector StokesSystem::boundary_data(const BoundarySet& set, const Backgrou
   ComplexVector u(set.size());
   std::vector<int> forced = acted_on(wrenches);
   std::erase_if(forced, [this](int j) { return boundaries_[j].shape->kind != BoundaryKind::free; });
+  std::vector<CompletionFlow> completions;
+  for (const int j : forced)
+    completions.emplace_back(boundaries_[j].shape->shape, boundaries_[j].pose, wrenches[j], log_length_);
   parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long n) {
     const int i = set.members[n];
     const PlacedShape& b = boundaries_[i];
@@ -115,8 +118,7 @@ ComplexVector StokesSystem::boundary_data(const BoundarySet& set, const Backgrou
     for (int k = set.first[i]; k < set.first[i] + b.size(); ++k) {
       const Complex x = set.nodes[k];
       u[k] = -flow.velocity(x);
-      for (const int j : forced)
-        u[k] -= completion_velocity(boundaries_[j].shape->shape, boundaries_[j].pose, wrenches[j], x, log_length_);
+      for (const CompletionFlow& completion : completions) u[k] -= completion.velocity(x);
       if (moving) u[k] += flow.walls * surfaces_[i].velocity(x - b.pose.centre);
     }
   });
@@ -164,7 +166,7 @@ StokesSolution StokesSystem::solve_data(const BoundarySet& set, ComplexVector da
   const GmresResult result = gmres([&](const Vector& in, Vector& out) { apply(set, in, out); },
                                    [&](const Vector& in, Vector& out) { preconditioner_->apply(set, in, out); }, rhs,
                                    guess.size() == set.size() ? Vector(as_real(guess)) : Vector(),
-                                   {.tolerance = tolerance, .scale = scale, .max_iterations = options_.gmres_max_iterations});
+                                   {.tolerance = tolerance, .max_iterations = options_.gmres_max_iterations, .scale = scale});
   if (!result.converged)
     throw NumericalError(concat("GMRES stopped at a relative residual of ", result.residual, " after ", result.iterations,
                                 " iterations; the tolerance is ", tolerance,

@@ -41,4 +41,13 @@ inline Suspension random_drop(std::mt19937_64& generator, int count, double side
   return bodies;
 }
 
+// Entries uniform in (-1, 1).
+inline Matrix random_matrix(int rows, int columns, unsigned seed) {
+  std::mt19937_64 generator(seed);
+  Matrix m(rows, columns);
+  for (int j = 0; j < columns; ++j)
+    for (int i = 0; i < rows; ++i) m(i, j) = 2.0 * uniform(generator) - 1.0;
+  return m;
+}
+
 }  // namespace stokes

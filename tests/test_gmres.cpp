@@ -14,14 +14,6 @@ using namespace stokes;
 
 namespace {
 
-Matrix random_matrix(int rows, int columns, unsigned seed) {
-  std::mt19937_64 generator(seed);
-  Matrix m(rows, columns);
-  for (int j = 0; j < columns; ++j)
-    for (int i = 0; i < rows; ++i) m(i, j) = 2.0 * uniform(generator) - 1.0;
-  return m;
-}
-
 // Nonsymmetric, eigenvalues in a disc of radius about 0.6 around 1.
 Matrix nonsymmetric(int n, unsigned seed) {
   return Matrix::Identity(n, n) + 0.6 * std::sqrt(3.0 / n) * random_matrix(n, n, seed);

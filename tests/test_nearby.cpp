@@ -199,7 +199,7 @@ TEST_CASE("where nearby mobilities do not lead to a solution the step is made wi
   StepperOptions options = accurate_steps(32, 0.01);
   options.stokes.gmres_tolerance = 1e-9;
   options.refine = Refine::near;
-  for (const int count : {3, 6, 12}) {
+  for (const int count : {3, 12, 40}) {
     const Suspension row = pressed_row(count, 0.01, 10.0);
     options.lcp_matrix = LcpMatrix::near;
     Stepper near(row, options);
@@ -213,8 +213,8 @@ TEST_CASE("where nearby mobilities do not lead to a solution the step is made wi
     CHECK(a.contacts.size() == b.contacts.size());
     MESSAGE(count, " discs in a row: ", a.ncp_iterations, " iterations and ", a.stokes_solves, " Stokes solves, ",
             b.ncp_iterations, " and ", b.stokes_solves, " with full mobilities");
-    if (count == 3) {
-      CHECK(a.ncp_iterations < nearby_iterations);
+    if (count < 40) {
+      CHECK(a.ncp_iterations <= nearby_iterations);
       continue;
     }
     CHECK(a.ncp_iterations > nearby_iterations);
@@ -225,7 +225,7 @@ TEST_CASE("where nearby mobilities do not lead to a solution the step is made wi
 }
 
 // Two discs driven together, moved by forces as if alone; one number stands for the density.
-TEST_CASE("the first answer to contact forces starts from the earlier one, changed as the forces changed") {
+TEST_CASE("answers to contact forces start from the nearest combination of known ones, and teach the matrix") {
   const Suspension discs{body_at({0.5, 0.5}, {-0.6, 0.0}), body_at({0.5, 0.5}, {0.6, 0.0})};
   const Response contact_free{{{{1.0, 0.0}, 0.0}, {{-1.0, 0.0}, 0.0}}, ComplexVector::Zero(1)};
   const double separation = 0.1, dt = 0.1;
@@ -235,45 +235,61 @@ TEST_CASE("the first answer to contact forces starts from the earlier one, chang
     return Response{{{mobility * w[0].force, 0.0}, {mobility * w[1].force, 0.0}},
                     ComplexVector::Constant(1, density * w[0].force)};
   };
-  for (const double change : {0.0, 0.3}) {
-    std::vector<Complex> guesses;
-    ContactMobility mobility;
-    mobility.column = [&](const auto& w) { return answer(w, 0.9, 3.0); };  // nearly the one that moves the bodies
-    mobility.response = [&](const auto& w, const ComplexVector& guess) {
-      guesses.push_back(guess[0]);
-      return answer(w, 1.0, 2.0);
-    };
-    const auto resolve = [&] { return resolve_contacts(discs, contact_free, dt, constraints, mobility, {}); };
-    const NcpResult fresh = resolve();
-    REQUIRE(fresh.solved);
-    REQUIRE(fresh.contacts.size() == 1);
-    // The gap of 0.2 would be 0; a force f on either disc gives back 2 dt f.
-    CHECK(std::abs(fresh.contacts[0].multiplier - 0.5) < 1e-4);
-    const double first = 0.05 / (0.9 * dt);  // multiplier of the first iterate
-    CHECK(std::abs(guesses[0] + 3.0 * first) < 1e-12);
-
+  std::vector<Complex> guesses;
+  int columns = 0;
+  ContactMobility mobility;
+  mobility.column = [&](const auto& w) { return ++columns, answer(w, 0.9, 3.0); };  // nearly the one that moves the bodies
+  mobility.response = [&](const auto& w, const ComplexVector& guess) {
+    guesses.push_back(guess[0]);
+    return answer(w, 1.0, 2.0);
+  };
+  const auto resolve = [&] {
     guesses.clear();
-    const double earlier = 0.5 - change;
-    mobility.earlier = {{{0, 1, 0, earlier}}, ComplexVector::Constant(1, 7.0)};
-    const NcpResult again = resolve();
-    REQUIRE(again.solved);
-    CHECK(std::abs(guesses[0] - (7.0 - 3.0 * (first - earlier))) < 1e-12);
-    // Neither where the second one starts, from the first answer, nor the result is touched by it.
-    REQUIRE(guesses.size() > 1);
-    const double correction = (0.5 - first) / 0.9;
-    CHECK(std::abs(guesses[1] + 2.0 * first + 3.0 * correction) < 1e-12);
-    CHECK(again.contacts[0].multiplier == fresh.contacts[0].multiplier);
-    CHECK(again.iterations == fresh.iterations);
-  }
+    columns = 0;
+    return resolve_contacts(discs, contact_free, dt, constraints, mobility, {});
+  };
+  const NcpResult fresh = resolve();
+  REQUIRE(fresh.solved);
+  REQUIRE(fresh.contacts.size() == 1);
+  // The gap of 0.2 would be 0; a force f on either disc gives back 2 dt f.
+  CHECK(std::abs(fresh.contacts[0].multiplier - 0.5) < 1e-4);
+  const double first = 0.05 / (0.9 * dt);  // multiplier of the first iterate
+  CHECK(std::abs(guesses[0] + 3.0 * first) < 1e-12);
+  // The second starts from the answer to the first.
+  REQUIRE(guesses.size() > 1);
+  CHECK(std::abs(guesses[1] + 2.0 * (first + (0.5 - first) / 0.9)) < 1e-5);
+
+  mobility.known = {{{0, 1, 0}}, Matrix::Constant(1, 1, 2.0 * 0.9), Matrix::Constant(1, 1, 0.2)};
+  mobility.answers = {ComplexVector::Constant(1, 7.0)};
+  const NcpResult again = resolve();
+  REQUIRE(again.solved);
+  CHECK(std::abs(guesses[0] - 7.0 * first / 0.2) < 1e-4);
+  CHECK(again.contacts[0].multiplier == fresh.contacts[0].multiplier);
+  CHECK(again.iterations == fresh.iterations);
+
+  mobility.learns = true;
+  const NcpResult taught = resolve();
+  REQUIRE(taught.solved);
+  CHECK(columns == 0);  // its rate is known
+  CHECK(taught.iterations == 2);
+  REQUIRE(taught.known.contacts.size() == 1);
+  CHECK(std::abs(taught.known.rates(0, 0) - 2.0) < 1e-12);
+  CHECK(std::abs(taught.contacts[0].multiplier - 0.5) < 1e-12);
+  REQUIRE(taught.known.multipliers.cols() == 2);
+  CHECK(taught.known.multipliers(0, 0) == 0.2);
+  CHECK(taught.known.multipliers(0, 1) == taught.contacts[0].multiplier);
+
+  mobility.known.rates = taught.known.rates;
+  CHECK(resolve().iterations == 1);
 }
 
-TEST_CASE("what a step leaves to the next one saves GMRES iterations and does not change it") {
+TEST_CASE("what steps leave to the next one changes it by less than the contacts' tolerance") {
   StepperOptions options = accurate_steps(32, 0.0245);
   options.refine = Refine::near;
   options.stokes.gmres_tolerance = 1e-9;
   options.lcp_matrix = LcpMatrix::near;
   Stepper stepper(crowd_at_wall(options.separation), options);
-  for (int k = 0; k < 2; ++k) REQUIRE(stepper.attempt(0.003, 1.0, {}).accepted);
+  for (int k = 0; k < 4; ++k) REQUIRE(stepper.attempt(0.003, 1.0, {}).accepted);
   REQUIRE(stepper.memory().known.contacts.size() > 0);
   CHECK(stepper.memory().contacts.empty());
   StepperMemory without_contacts = stepper.memory();
@@ -288,7 +304,7 @@ TEST_CASE("what a step leaves to the next one saves GMRES iterations and does no
   REQUIRE(a.contacts.size() == b.contacts.size());
   MESSAGE(a.contacts.size(), " contacts, ", a.ncp_iterations, " and ", b.ncp_iterations, " iterations; ", a.gmres_iterations,
           " of GMRES against ", b.gmres_iterations, ", of which ", a.background_iterations, " without contact forces");
-  CHECK(a.gmres_iterations < b.gmres_iterations);
+  CHECK(a.ncp_iterations <= b.ncp_iterations);
   for (std::size_t i = 0; i < poses.size(); ++i)
-    CHECK(std::abs(stepper.bodies()[i].pose.centre - forgetful.bodies()[i].pose.centre) < 1e-7);
+    CHECK(std::abs(stepper.bodies()[i].pose.centre - forgetful.bodies()[i].pose.centre) < 1e-4 * options.separation);
 }
