@@ -11,6 +11,7 @@
 #pragma once
 
 #include "cauchy.hpp"
+#include "pack.hpp"
 
 namespace stokes {
 
@@ -19,13 +20,29 @@ class CircleEvaluation {
   // Around 0, its node k at the angle 2 pi k / points; points even.
   CircleEvaluation(double radius, int points, Side side);
 
-  // As CloseEvaluation. Cost O(N) per target.
+  // As CloseEvaluation, for all nodes or some. Cost O(1) per target and node.
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
+  VelocityRows velocity_rows(const std::vector<Complex>& z, const std::vector<int>& nodes) const;
 
  private:
   double radius_;
   Side side_;
   ComplexVector direction_;  // e^(i alpha) of the nodes
+};
+
+// The flow of one density, by the series themselves: for large circles, whose rows would fill the memory.
+class CircleFlow {
+ public:
+  CircleFlow(double radius, Side side, const ComplexVector& density);
+
+  // At points z in the fluid. Vectorised over them; cost O(N) each.
+  std::vector<Complex> velocity(const std::vector<Complex>& z) const;
+
+ private:
+  double radius_;
+  Side side_;
+  Complex first_;                // c_1
+  std::vector<double> series_;   // of each power of q or 1/q the coefficients of three series, real and imaginary parts
 };
 
 }  // namespace stokes

@@ -181,6 +181,19 @@ std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex
   return rows;
 }
 
+bool DiscreteShape::has_series() const {
+  constexpr int long_rows = 256;
+  return size() >= long_rows && std::holds_alternative<CircleEvaluation>(close_);
+}
+
+VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z, const std::vector<int>& nodes) {
+  VelocityRows rows = CircleEvaluation(shape.shape.a, shape.size(), shape.side()).velocity_rows(z, nodes);
+  const VelocityRows plain = trapezoid_rows(shape.curve, shape.side(), z, nodes);
+  rows.direct -= plain.direct;
+  rows.conjugate -= plain.conjugate;
+  return rows;
+}
+
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z) {
   VelocityRows rows = shape.close_rows(z);
   const VelocityRows plain = trapezoid_rows(shape.curve, shape.side(), z);

@@ -77,6 +77,8 @@ class DiscreteShape {
 
   // Rows of the double layer's velocity at points z (body frame) in the fluid, at any distance.
   VelocityRows close_rows(const std::vector<Complex>& z) const;
+  // A circle whose rows are long: better a CircleFlow for each density.
+  bool has_series() const;
 
   // Flow of the double layer of a density at points z (both in the body frame) in the fluid or on the boundary, at any
   // distance: velocity, pressure and gradient. Cost O(N^2) and, per point, of O(N) (Cauchy) or O(N^1.5).
@@ -135,8 +137,9 @@ double near_distance_of_gradient(const DiscreteShape& shape);
 // Rows of points z (frame of the shape) nearer than that.
 std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z, double distance);
 
-// What the close evaluation adds to the plain trapezoid rule at points z.
+// What the close evaluation adds to the plain trapezoid rule at points z; on a circle that has_series() at some nodes.
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z);
+VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z, const std::vector<int>& nodes);
 
 // A density moved from one set of nodes to another of the same shape by trigonometric interpolation.
 ComplexVector move_density(const ComplexVector& density, const Discretisation& from, const Discretisation& to);

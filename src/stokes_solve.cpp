@@ -65,6 +65,7 @@ void StokesSystem::apply(const BoundarySet& set, const Vector& in, Vector& out) 
     wrenches.segment<3>(3 * static_cast<Eigen::Index>(f)) << w.force.real(), w.force.imag(), w.torque;
     completed = true;
   }
+  const std::vector<LongCircleFlow> flows = long_circle_flows(set, eta);
   Complex* result = reinterpret_cast<Complex*>(out.data());
   parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long n) {
     const int i = set.members[n], first = set.first[i];
@@ -74,12 +75,13 @@ void StokesSystem::apply(const BoundarySet& set, const Vector& in, Vector& out) 
     else
       out.segment(2 * first, 2 * b.size()).setZero();
     for (int k = 0; k < b.size(); ++k) result[first + k] += std::conj(b.axis) * sum[first + k];
-    finish_boundary(set, i, in, result + first);
+    finish_boundary(set, i, in, flows, result + first);
   });
 }
 
 // `result`: at the boundary's first node.
-void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& in, Complex* result) const {
+void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& in,
+                                   const std::vector<LongCircleFlow>& flows, Complex* result) const {
   const PlacedShape& b = boundaries_[i];
   const Curve& curve = b.shape->curve;
   const Complex* own = reinterpret_cast<const Complex*>(in.data()) + set.first[i];
@@ -95,10 +97,46 @@ void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& 
   for (int n = first_near_[i]; n < first_near_[i + 1]; ++n) {
     const NearBlock& near = near_[n];
     if (!set.has(near.source)) continue;
+    if (near.matrix.size() == 0) {
+      add_long_circle(near, flows, result);
+      continue;
+    }
     const Vector correction = near.matrix * in.segment(2 * set.first[near.source], 2 * boundaries_[near.source].size());
     for (std::size_t r = 0; r < near.rows.size(); ++r)
       result[near.rows[r]] += Complex(correction[2 * r], correction[2 * r + 1]);
   }
+}
+
+// Of all of them, in the order of long_circles_; empty of those outside the set.
+std::vector<StokesSystem::LongCircleFlow> StokesSystem::long_circle_flows(const BoundarySet& set, const Complex* density) const {
+  std::vector<LongCircleFlow> flows;
+  for (const LongCircle& circle : long_circles_) {
+    const PlacedShape& b = boundaries_[circle.boundary];
+    ComplexVector own = ComplexVector::Zero(b.size());
+    if (set.has(circle.boundary)) own = ComplexVector::Map(density + set.first[circle.boundary], b.size());
+    flows.push_back({CircleFlow(b.shape->shape.a, b.shape->side(), own), b.axis * own});
+  }
+  return flows;
+}
+
+// The series less the trapezoid rule.
+void StokesSystem::add_long_circle(const NearBlock& near, const std::vector<LongCircleFlow>& flows, Complex* result) const {
+  std::size_t c = 0;
+  while (long_circles_[c].boundary != near.source) ++c;
+  const PlacedShape &target = boundaries_[near.target], &source = boundaries_[near.source];
+  PointArray points;
+  points.resize(static_cast<int>(near.rows.size()));
+  std::vector<Complex> z;
+  for (std::size_t r = 0; r < near.rows.size(); ++r) {
+    const Complex x = all_.nodes[target.offset + near.rows[r]];
+    points.set(static_cast<int>(r), x);
+    z.push_back(source.local(x));
+  }
+  ComplexVector plain;
+  double_layer_velocity(points, long_circles_[c].nodes, long_circles_[c].weighted_normal, flows[c].density, plain);
+  const std::vector<Complex> exact = flows[c].series.velocity(z);
+  for (std::size_t r = 0; r < near.rows.size(); ++r)
+    result[near.rows[r]] += std::conj(target.axis) * (source.axis * exact[r] - plain[static_cast<Eigen::Index>(r)]);
 }
 
 // What the boundaries' equations have on their right, laboratory frame: surface velocities of walls less background

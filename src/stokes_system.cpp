@@ -106,7 +106,7 @@ void StokesSystem::find_near_blocks() {
     std::vector<Complex> z(target.size());
     for (int k = 0; k < target.size(); ++k) z[k] = source.local(all_.nodes[target.offset + k]);
     near.rows = near_rows(*source.shape, z, near_reach(near.source));
-    if (near.rows.empty()) return;
+    if (near.rows.empty() || source.shape->has_series()) return;
     std::vector<Complex> close;
     for (int row : near.rows) close.push_back(z[row]);
     near.matrix = real_matrix(near_correction(*source.shape, close), source.axis * std::conj(target.axis));
@@ -115,6 +115,11 @@ void StokesSystem::find_near_blocks() {
   first_near_.assign(boundaries_.size() + 1, 0);
   for (const NearBlock& n : near_) ++first_near_[n.target + 1];
   for (std::size_t i = 0; i < boundaries_.size(); ++i) first_near_[i + 1] += first_near_[i];
+  for (int i = 0; i < static_cast<int>(boundaries_.size()); ++i)
+    if (boundaries_[i].shape->has_series()) {
+      const BoundarySet alone(boundaries_, {i});
+      long_circles_.push_back({i, alone.nodes, alone.weighted_normal});
+    }
 }
 
 // Column 3 f + j: unit force along the first or second axis, or unit torque, of fixed body f, everything in
@@ -167,9 +172,19 @@ Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int s
   };
   for (int n = first_near_[target]; n < first_near_[target + 1]; ++n) {
     if (near_[n].source != source) continue;
+    std::vector<std::pair<Eigen::Index, std::size_t>> found;  // rows of the block and of the near block
     for (std::size_t k = 0; k < near_[n].rows.size(); ++k)
       if (const auto r = std::lower_bound(rows.begin(), rows.end(), near_[n].rows[k]); r != rows.end() && *r == near_[n].rows[k])
-        add(r - rows.begin(), near_[n].matrix.middleRows(2 * static_cast<Eigen::Index>(k), 2));
+        found.push_back({r - rows.begin(), k});
+    if (near_[n].matrix.size() > 0) {
+      for (const auto& [r, k] : found) add(r, near_[n].matrix.middleRows(2 * static_cast<Eigen::Index>(k), 2));
+      continue;
+    }
+    std::vector<Complex> close;
+    for (const auto& [r, k] : found) close.push_back(z[r]);
+    const Matrix correction = real_matrix(near_correction(*s.shape, close, columns), s.axis * std::conj(t.axis));
+    for (std::size_t c = 0; c < found.size(); ++c)
+      block.middleRows(2 * found[c].first, 2) += correction.middleRows(2 * static_cast<Eigen::Index>(c), 2);
   }
   if (s.shape->kind == BoundaryKind::fixed) {
     const auto f = std::lower_bound(fixed_.begin(), fixed_.end(), source) - fixed_.begin();

@@ -116,7 +116,15 @@ class StokesSystem {
   struct NearBlock {  // correction of the trapezoid sum from `source` at some nodes of `target`
     int target, source;
     std::vector<int> rows;  // node numbers within the target
-    Matrix matrix;          // 2 rows x 2N, frames of source and target
+    Matrix matrix;          // 2 rows x 2N, frames of source and target; empty if the source has_series()
+  };
+  struct LongCircle {  // a source that has_series(), laboratory frame
+    int boundary;
+    PointArray nodes, weighted_normal;
+  };
+  struct LongCircleFlow {  // of one density
+    CircleFlow series;     // frame of the source
+    ComplexVector density; // laboratory frame
   };
 
   void place(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes);
@@ -131,7 +139,10 @@ class StokesSystem {
   ComplexVector in_laboratory(const BoundarySet& set, const Complex* density) const;
   ComplexVector double_layer(const BoundarySet& set, const Complex* density) const;
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
-  void finish_boundary(const BoundarySet& set, int i, const Vector& in, Complex* result) const;
+  std::vector<LongCircleFlow> long_circle_flows(const BoundarySet& set, const Complex* density) const;
+  void finish_boundary(const BoundarySet& set, int i, const Vector& in, const std::vector<LongCircleFlow>& flows,
+                       Complex* result) const;
+  void add_long_circle(const NearBlock& near, const std::vector<LongCircleFlow>& flows, Complex* result) const;
   ComplexVector boundary_data(const BoundarySet& set, const BackgroundFlow& flow, const std::vector<Wrench>& wrenches) const;
   Vector straining_data(const BoundarySet& set, ComplexVector data, std::vector<RigidVelocity>& rigid) const;
   StokesSolution solve_data(const BoundarySet& set, ComplexVector data, const ComplexVector& guess, double tolerance,
@@ -150,6 +161,7 @@ class StokesSystem {
   BoundarySet all_;
   std::vector<NearBlock> near_;      // ordered by target
   std::vector<int> first_near_;      // near_ of boundary i: [first_near_[i], first_near_[i + 1])
+  std::vector<LongCircle> long_circles_;
   Matrix completion_;                // flows of unit force and torque of the fixed bodies at all nodes, 2N x 3 fixed
   std::optional<FmmPlan> fmm_;
   std::optional<Preconditioner> preconditioner_;

@@ -42,6 +42,19 @@ TEST_CASE("on circles the closed form agrees with the general close evaluation a
       const ComplexVector v = velocity(general.velocity_rows(targets), density);
       // Densities of modulus up to about 5; both carry the round-off of sums over the nodes.
       CHECK((u - v).cwiseAbs().maxCoeff() < 2e-12);
+
+      const std::vector<Complex> series = CircleFlow(radius, side, density).velocity(targets);
+      CHECK((u - ComplexVector::Map(series.data(), u.size())).cwiseAbs().maxCoeff() < 2e-12);
+      // Of any density, the Nyquist mode among it.
+      ComplexVector rough = random_vectors(points, generator);
+      const std::vector<Complex> roughly = CircleFlow(radius, side, rough).velocity(targets);
+      const ComplexVector w = velocity(closed.velocity_rows(targets), rough);
+      CHECK((w - ComplexVector::Map(roughly.data(), w.size())).cwiseAbs().maxCoeff() < 1e-11);
+
+      const std::vector<int> some = {0, 3, points - 1};
+      const VelocityRows rows = closed.velocity_rows(targets), part = closed.velocity_rows(targets, some);
+      CHECK(part.direct == rows.direct(Eigen::all, some));
+      CHECK(part.conjugate == rows.conjugate(Eigen::all, some));
     }
 }
 
