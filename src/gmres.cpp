@@ -20,10 +20,10 @@ Eigen::Index piece_count(Eigen::Index size) { return (size + piece - 1) / piece;
 class Cycle {
  public:
   Cycle(const Vector& residual, int capacity) : capacity_(capacity) {
-    beta_ = residual.norm();
+    const double beta = residual.norm();
     basis_.reserve(capacity + 1);
-    basis_.push_back(residual / beta_);
-    g_.push_back(beta_);
+    basis_.push_back(residual / beta);
+    g_.push_back(beta);
   }
 
   int size() const { return static_cast<int>(h_.size()); }
@@ -31,14 +31,15 @@ class Cycle {
   double residual() const { return std::abs(g_.back()); }
   const Vector& last() const { return basis_.back(); }
 
-  // Extends the space by `w` = A M v, v the last basis vector. Returns false when w lies in the space.
-  bool extend(Vector w) {
+  // Extends the space by w = A z, z = M v and v the last basis vector. Returns false when w lies in the space.
+  bool extend(const Vector& z, Vector w) {
     const int k = size();
+    directions_.push_back(z);
     Vector h = Vector::Zero(k + 2);
     const double before = w.norm();
     for (int pass = 0; pass < 2; ++pass) {  // the second pass restores orthogonality lost to cancellation
       const Vector c = products(w);
-      subtract(c, w);
+      subtract(c, basis_, w);
       h.head(k + 1) += c;
     }
     h[k + 1] = w.norm();
@@ -55,8 +56,8 @@ class Cycle {
     return independent;
   }
 
-  // The combination of basis vectors that minimises the residual.
-  Vector correction() const {
+  // Adds the combination of the z that minimises the residual.
+  void correct(Vector& x) const {
     const int k = size();
     Vector y(k);
     for (int i = k - 1; i >= 0; --i) {
@@ -64,9 +65,7 @@ class Cycle {
       for (int j = i + 1; j < k; ++j) sum -= h_[j][i] * y[j];
       y[i] = h_[i][i] != 0.0 ? sum / h_[i][i] : 0.0;
     }
-    Vector v = Vector::Zero(basis_[0].size());
-    subtract(-y, v);
-    return v;
+    subtract(-y, directions_, x);
   }
 
  private:
@@ -83,11 +82,11 @@ class Cycle {
     return sums;
   }
 
-  // w -= Sum_i c_i v_i over the first basis vectors.
-  void subtract(const Vector& c, Vector& w) const {
+  // w -= Sum_i c_i v_i over the first vectors.
+  static void subtract(const Vector& c, const std::vector<Vector>& v, Vector& w) {
     parallel_for_large(piece_count(w.size()), w.size(), [&](long p) {
       const Eigen::Index from = p * piece, size = std::min(piece, w.size() - from);
-      for (Eigen::Index i = 0; i < c.size(); ++i) w.segment(from, size) -= c[i] * basis_[i].segment(from, size);
+      for (Eigen::Index i = 0; i < c.size(); ++i) w.segment(from, size) -= c[i] * v[i].segment(from, size);
     });
   }
 
@@ -98,8 +97,7 @@ class Cycle {
   }
 
   int capacity_;
-  double beta_ = 0.0;
-  std::vector<Vector> basis_, h_;
+  std::vector<Vector> basis_, directions_, h_;
   std::vector<double> g_, cosine_, sine_;
 };
 
@@ -132,11 +130,10 @@ GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner,
            cycle.residual() > 0.9 * options.tolerance * scale) {
       preconditioner(cycle.last(), direction);
       A(direction, image);
-      independent = cycle.extend(image);
+      independent = cycle.extend(direction, image);
       ++result.iterations;
     }
-    preconditioner(cycle.correction(), direction);
-    result.x += direction;
+    cycle.correct(result.x);
     A(result.x, image);
     residual = b - image;
     const double previous = result.residual;

@@ -1,4 +1,4 @@
-// Right-preconditioned GMRES for real linear operators.
+// Flexible right-preconditioned GMRES for real linear operators.
 #pragma once
 
 #include <functional>
@@ -24,7 +24,7 @@ struct GmresResult {
 };
 
 // Solves A x = b from the initial guess `guess` (empty: zero) with A M (M^-1 x) = b, M the approximate
-// inverse `preconditioner`. The residual is always that of the unpreconditioned system, and convergence
+// inverse `preconditioner`, of which only the directions M v are used, so that it may be of low precision. The residual is always that of the unpreconditioned system, and convergence
 // is declared only after it has been evaluated; b = 0 answers x = 0. Deterministic for any number of threads.
 GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Vector& b,
                   const Vector& guess, const GmresOptions& options);

@@ -1,6 +1,7 @@
 #include "preconditioner.hpp"
 
 #include <algorithm>
+#include <eigen3/Eigen/LU>
 #include <numeric>
 #include <tuple>
 
@@ -47,15 +48,15 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
   const bool in_part = j.shape->is_circle() && j.shape->shape.a > large_circle * i.shape->shape.circumradius();
   p.part = in_part ? nodes_beside(i, j) : all_nodes(j);
   const std::vector<int> own = all_nodes(i);
-  p.X = i.shape->solve_own(block(p.i, own, p.j, p.part));
-  p.Y = block(p.j, p.part, p.i, own);
+  const Matrix X = i.shape->solve_own(block(p.i, own, p.j, p.part));
+  Matrix Y = block(p.j, p.part, p.i, own);
   if (in_part)
-    p.Y *= -2.0;  // the inverse of a circle's block but for a few smooth modes
+    Y *= -2.0;  // the inverse of a circle's block but for a few smooth modes
   else
-    p.Y = j.shape->solve_own(p.Y);
-  Matrix schur = -p.X * p.Y;
-  schur.diagonal().array() += 1.0;
-  p.schur.compute(schur);
+    Y = j.shape->solve_own(Y);
+  p.X = X.cast<float>();
+  p.Y = Y.cast<float>();
+  p.inverse = (Matrix::Identity(X.rows(), X.rows()) - X * Y).inverse().cast<float>();
   return p;
 }
 
@@ -89,12 +90,12 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
 
 // What solving a pair together adds to the solutions `own` of its members by themselves; of j at its nodes that take part.
 std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const BoundarySet& set, const Vector& own) const {
-  const auto d_i = own.segment(2 * set.first[p.i], 2 * boundaries_[p.i].size());
-  Vector d_j(2 * static_cast<Eigen::Index>(p.part.size()));
+  const Eigen::VectorXf d_i = own.segment(2 * set.first[p.i], 2 * boundaries_[p.i].size()).cast<float>();
+  Eigen::VectorXf d_j(2 * static_cast<Eigen::Index>(p.part.size()));
   for (std::size_t k = 0; k < p.part.size(); ++k)
-    d_j.segment<2>(2 * static_cast<Eigen::Index>(k)) = own.segment<2>(2 * (set.first[p.j] + p.part[k]));
-  const Vector z_i = p.schur.solve(d_i - p.X * d_j);
-  return {z_i - d_i, -p.Y * z_i};
+    d_j.segment<2>(2 * static_cast<Eigen::Index>(k)) = own.segment<2>(2 * (set.first[p.j] + p.part[k])).cast<float>();
+  const Eigen::VectorXf z_i = p.inverse * (d_i - p.X * d_j);
+  return {(z_i - d_i).cast<double>(), -(p.Y * z_i).cast<double>()};
 }
 
 }  // namespace stokes

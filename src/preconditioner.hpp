@@ -7,8 +7,6 @@
 
 #include "discrete_shape.hpp"
 
-#include <eigen3/Eigen/LU>
-
 namespace stokes {
 
 enum class PreconditionerKind {
@@ -33,12 +31,11 @@ class Preconditioner {
 
  private:
   // With X = D_i^-1 C_ij and Y = D_j^-1 C_ji the pair's system is [I X; Y I] z = [D_i^-1 r_i; D_j^-1 r_j], and
-  // z_i = (I - X Y)^-1 (d_i - X d_j), z_j = d_j - Y z_i.
+  // z_i = (I - X Y)^-1 (d_i - X d_j), z_j = d_j - Y z_i. In single precision: reading them is what applying them costs.
   struct Pair {
     int i, j;
     std::vector<int> part;  // nodes of j that take part
-    Matrix X, Y;
-    Eigen::PartialPivLU<Matrix> schur;
+    Eigen::MatrixXf X, Y, inverse;
   };
 
   Pair prepared(std::pair<int, int> members, const BlockFunction& block) const;
