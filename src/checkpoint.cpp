@@ -150,7 +150,7 @@ void write_memory(Writer& writer, const StepperMemory& memory) {
   writer.line("memory", memory.path, memory.background.size(), memory.contacts.size());
   for (const StepperMemory::Density& density : memory.background) write_density(writer, density);
   write_density(writer, memory.total);
-  writer.line("fineness", memory.fineness, memory.steps_as_fine);
+  writer.line("fineness", memory.fineness, memory.steps_as_fine, memory.coarsened ? 1 : 0);
   writer.line("known", memory.known.contacts.size(), memory.answers.size());
   for (const KnownContacts::Contact& c : memory.known.contacts) writer.line("contact", c.a, c.b, c.region);
   writer.line("rates", std::vector<double>(memory.known.rates.reshaped().begin(), memory.known.rates.reshaped().end()));
@@ -174,6 +174,7 @@ StepperMemory read_memory(Reader& reader) {
   reader.begin("fineness");
   memory.fineness = reader.number();
   memory.steps_as_fine = reader.integer<int>();
+  memory.coarsened = reader.number() != 0.0;
   reader.begin("known");
   memory.known.contacts.resize(reader.integer<std::size_t>());
   memory.answers.resize(reader.integer<std::size_t>());

@@ -23,7 +23,7 @@ constexpr std::size_t extrapolation_points = 3;
 constexpr double column_tolerance = 1e-6;
 constexpr int nearby_iterations = 8;
 constexpr double finest = 4.0;  // largest fineness of clusters
-constexpr int fine_steps = 20;  // that clusters stay fine, until coarser ones are tried again
+constexpr int fine_steps = 50;  // that clusters stay fine, until coarser ones are tried again
 
 // A density on other nodes, boundary by boundary.
 ComplexVector moved(const StepperMemory::Density& density, const std::vector<Discretisation>& nodes) {
@@ -203,20 +203,33 @@ NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp,
 }
 
 // A failure may be due to what was learnt in other configurations, to columns of nearby bodies or to nodes too sparse
-// for the gaps: columns anew come first, then finer nodes, whole columns last.
+// for the gaps: columns anew come first, then finer nodes, whole columns last. Whether coarser nodes do is seen by
+// columns anew only.
 NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& ncp) {
   NcpOptions at_first = ncp;
   at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
-  NcpResult result = resolve(configuration(driving), dt, at_first, LcpMatrix::near);
-  if (!result.solved && !memory_.known.contacts.empty()) {
+  configuration(driving);
+  if (memory_.coarsened) {
+    const StepperMemory finer = memory_;
     forget_contacts();
-    now_->ncp_iterations += result.iterations;
-    result = resolve(*now_, dt, at_first, LcpMatrix::near);
+    const NcpResult result = resolve(*now_, dt, at_first, LcpMatrix::near);
+    if (result.solved) return result;
+    memory_.known = finer.known, memory_.answers = finer.answers;
+    refine(result, driving);
   }
-  while (result.unresolved && refine(result, driving)) result = resolve(*now_, dt, at_first, LcpMatrix::near);
-  if (result.solved) return result;
-  now_->ncp_iterations += result.iterations;
-  return resolve(*now_, dt, ncp, LcpMatrix::full);
+  for (;;) {
+    NcpResult result = resolve(*now_, dt, at_first, LcpMatrix::near);
+    if (!result.solved && !memory_.known.contacts.empty()) {
+      forget_contacts();
+      now_->ncp_iterations += result.iterations;
+      result = resolve(*now_, dt, at_first, LcpMatrix::near);
+    }
+    if (result.solved) return result;
+    if (result.unresolved && refine(result, driving)) continue;
+    now_->ncp_iterations += result.iterations;
+    result = resolve(*now_, dt, ncp, LcpMatrix::full);
+    if (!result.unresolved || !refine(result, driving)) return result;
+  }
 }
 
 // Goes on to the same configuration with denser clusters, after a failure; false when there are none.
@@ -276,11 +289,8 @@ void Stepper::remember(Configuration& now, ComplexVector total, KnownContacts kn
   } else {
     forget_contacts();
   }
-  if (memory_.fineness > 1.0 && ++memory_.steps_as_fine >= fine_steps) {
-    memory_.fineness *= 0.5;
-    memory_.steps_as_fine = 0;
-    forget_contacts();  // which would hide that the nodes do not resolve them
-  }
+  memory_.coarsened = memory_.fineness > 1.0 && ++memory_.steps_as_fine >= fine_steps;
+  if (memory_.coarsened) memory_.fineness *= 0.5, memory_.steps_as_fine = 0;
   memory_.total = {memory_.path, now.nodes, std::move(total)};
 }
 

@@ -82,8 +82,9 @@ struct StepperMemory {
   std::vector<Density> answers;     // those of known.multipliers, of contact forces alone
   // Answers to unit forces between the bodies that were in contact in the latest step, newest last.
   std::map<std::pair<int, int>, std::vector<Density>> contacts;
-  double fineness = 1.0;  // of the clusters, with which the next configuration begins
-  int steps_as_fine = 0;  // how many it has lasted
+  double fineness = 1.0;   // of the clusters, with which the next configuration begins
+  int steps_as_fine = 0;   // how many it has lasted
+  bool coarsened = false;  // it is half of that of the latest step
 };
 
 class Stepper {
