@@ -7,6 +7,7 @@
 
 #include "checkpoint.hpp"
 #include "program.hpp"
+#include "run.hpp"
 
 using namespace stokes;
 
@@ -62,18 +63,7 @@ void check_every_restart(const std::vector<std::string>& settings, const std::st
   Case written = c;
   written.output = (here.path() / "out").string();
   const Suspension bodies = read_suspension(c);
-  SimulationOptions options;
-  options.stepper.flow = {c.flow, c.rate};
-  options.stepper.points_per_body = c.points_per_body;
-  options.stepper.contact = c.contact;
-  options.stepper.coupling = c.coupling;
-  options.stepper.lcp_matrix = c.lcp_matrix;
-  options.stepper.refine = c.refine;
-  options.stepper.separation = separation_length(c, bodies);
-  options.time_step = c.time_step;
-  options.end_time = c.end_time;
-  options.reverse_at = c.reverse_at;
-  options.adaptive = c.adaptive;
+  const SimulationOptions options = options_of(c, bodies);
   const Course whole = course(bodies, options, {});
   REQUIRE(whole.states.size() > 10);
   REQUIRE(whole.contacts > 0);
