@@ -23,12 +23,7 @@ std::vector<CouetteCase> all_cases() {
 }
 
 Case case_of(const CouetteCase& chosen) {
-  const Annulus annulus = couette_annulus();
-  Case c;
-  c.geometry = Geometry::annulus;
-  c.inner_radius = annulus.inner_radius, c.outer_radius = annulus.outer_radius;
-  c.wall_points = annulus.wall_points;
-  c.outer_angular_velocity = couette_rotation;
+  Case c = case_between(couette_annulus());
   c.points_per_body = chosen.variant == "points64" ? 64 : 32;
   c.time_step = couette_revolution / (chosen.suspension.lambda == 1 ? 500 : 1000);
   if (chosen.variant == "halfstep") c.time_step /= 2.0;
