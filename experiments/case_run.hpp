@@ -54,6 +54,9 @@ class RecordedRun {
         throw InputError(concat(rows.file, ": not every step has a row for every body"));
   }
 
+  // Whether the last state is there, in which a run ends or fails.
+  bool has_ended() const { return !bodies_.empty() && std::isnan(states("dt").back()); }
+
   // The bodies in each state.
   const std::vector<std::vector<RecordedBody>>& bodies() const { return bodies_; }
   // A column of steps.csv that tells of each state.
