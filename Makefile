@@ -99,7 +99,7 @@ $(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
 -include $(wildcard $(BUILD)/*.d)
 
 # --- tests ----------------------------------------------------------------------------------------------
-test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling
+test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling $(BUILD)/fig6_injection
 	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests
 
 FUZZ = count=100000 seed=1

@@ -21,13 +21,17 @@ inline Case case_between(const Annulus& annulus) {
 
 // Writes case.txt and bodies.csv, which `simulate` reads too, and returns the case that they make.
 inline Case write_case(const std::string& name, Case c, const Suspension& bodies, const Results& results) {
-  const std::filesystem::path folder = results.folder() / name;
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = results.folder() / name, file = folder / "case.txt";
   c.bodies = "bodies.csv";
   c.output = folder.string();
-  write_file_atomically(folder / c.bodies, format_bodies(bodies));
-  write_file_atomically(folder / "case.txt", format_case(c));
-  return read_case(folder / "case.txt", {concat("threads=", thread_count())});
+  std::vector<std::string> settings = results.settings();
+  settings.push_back(concat("threads=", thread_count()));
+  const std::string text = format_case(c);
+  const Case checked = parse_case(text, file, settings);
+  std::filesystem::create_directories(folder);
+  write_file_atomically(file, text);
+  write_file_atomically(checked.bodies_path(), format_bodies(bodies));
+  return checked;
 }
 
 struct RecordedBody {
