@@ -99,7 +99,7 @@ $(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
 -include $(wildcard $(BUILD)/*.d)
 
 # --- tests ----------------------------------------------------------------------------------------------
-test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling
+test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling $(BUILD)/fig6_injection
 	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests
 
 FUZZ = count=100000 seed=1
@@ -158,9 +158,9 @@ define experiment
 $(RESULTS)/$(1)/%.csv: $(BUILD)/$(1)
 	@echo $(1) $$*
 	@$(BUILD)/$(1) case=$$* results=$(RESULTS)
-$(1): $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(2))
+$(1): $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(2))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
-$(1)-quick: $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(3))
+$(1)-quick: $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(3))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
 reproduce: $(1)
 reproduce-quick: $(1)-quick

@@ -7,8 +7,8 @@
 
 #include <cmath>
 
+#include "case_run.hpp"
 #include "couette.hpp"
-#include "run.hpp"
 
 namespace {
 
@@ -22,40 +22,19 @@ std::vector<CouetteCase> all_cases() {
   return cases;
 }
 
-Case case_of(const CouetteCase& chosen, const std::filesystem::path& folder) {
-  const double step = (chosen.suspension.lambda == 1 ? couette_revolution / 500 : couette_revolution / 1000) /
-                      (chosen.variant == "halfstep" ? 2 : 1);
-  const bool quick = chosen.variant == "quick";
-  const Annulus annulus = couette_annulus();
-  const Comments keys = {{"bodies", "bodies.csv"},
-                         {"geometry", "annulus"},
-                         {"inner_radius", format_number(annulus.inner_radius)},
-                         {"outer_radius", format_number(annulus.outer_radius)},
-                         {"wall_points", format_number(annulus.wall_points)},
-                         {"outer_angular_velocity", format_number(couette_rotation)},
-                         {"points_per_body", chosen.variant == "points64" ? "64" : "32"},
-                         {"time_step", format_number(step)},
-                         {"end_time", format_number((quick ? 0.02 : 2.0) * couette_revolution)},
-                         {"min_separation_length", format_number(couette_separation)},
-                         {"contact", chosen.variant == "stiv" ? "stiv" : "gap"},
-                         {"lcp_matrix", "near"},
-                         {"refine", "near"},
-                         {"gmres_tolerance", "1e-5"},
-                         {"output_every", "20"},
-                         {"output", folder.string()}};
-  std::string text;
-  for (const auto& [key, value] : keys) text += concat(key, " = ", value, "\n");
-  write_file_atomically(folder / "case.txt", text);
-  return read_case(folder / "case.txt", {concat("threads=", thread_count())});
-}
-
-void write_bodies(const Suspension& bodies, const std::filesystem::path& path) {
-  std::string text = "a,b,x,y,theta\n";
-  for (const Body& body : bodies)
-    if (!body.fixed)
-      text += concat(body.shape.a, ",", body.shape.b, ",", body.pose.centre.real(), ",", body.pose.centre.imag(), ",",
-                     body.pose.angle, "\n");
-  write_file_atomically(path, text);
+Case case_of(const CouetteCase& chosen) {
+  Case c = case_between(couette_annulus());
+  c.points_per_body = chosen.variant == "points64" ? 64 : 32;
+  c.time_step = couette_revolution / (chosen.suspension.lambda == 1 ? 500 : 1000);
+  if (chosen.variant == "halfstep") c.time_step /= 2.0;
+  c.end_time = (chosen.variant == "quick" ? 0.02 : 2.0) * couette_revolution;
+  c.min_separation_length = couette_separation;
+  c.contact = chosen.variant == "stiv" ? ContactModel::stiv : ContactModel::gap;
+  c.lcp_matrix = LcpMatrix::near;
+  c.refine = Refine::near;
+  c.gmres_tolerance = 1e-5;
+  c.output_every = 20;
+  return c;
 }
 
 // Over the steps from a time on.
@@ -123,10 +102,8 @@ void summarise(const CouetteCase& chosen, const RunSummary& run, const Results& 
 void run(const std::string& name, const Results& results) {
   const std::vector<CouetteCase> cases = all_cases();
   const CouetteCase& chosen = *std::find_if(cases.begin(), cases.end(), [&](const CouetteCase& c) { return c.name() == name; });
-  const std::filesystem::path folder = results.folder() / name;
-  std::filesystem::create_directories(folder);
-  write_bodies(couette_bodies(chosen.suspension, static_cast<std::uint64_t>(chosen.seed)), folder / "bodies.csv");
-  const RunSummary summary = simulate_case(case_of(chosen, folder), name);
+  const Suspension bodies = couette_bodies(chosen.suspension, static_cast<std::uint64_t>(chosen.seed));
+  const RunSummary summary = simulate_case(write_case(name, case_of(chosen), bodies, results), name);
   summarise(chosen, summary, results);
 }
 

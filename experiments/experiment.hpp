@@ -1,6 +1,7 @@
 // What the experiment programs share: their command line and their result files.
 //
-//   program case=NAME [results=DIR]   computes one case, writes DIR/<experiment>/<case>.csv
+//   program case=NAME [results=DIR]   computes one case, writes DIR/<experiment>/<case>.csv;
+//           [checkpoint_every=SECONDS]  for cases that go on after an interruption (case_run.hpp)
 //   program collect   [results=DIR]   combines the cases that are there into tables and summary.csv
 //   program list                      prints the names of the cases
 //   program --help                    says what it makes
@@ -28,13 +29,16 @@ using Quantities = std::vector<std::pair<std::string, double>>;
 
 class Results {
  public:
-  Results(const std::filesystem::path& root, const std::string& experiment) : folder_(root / experiment) {
+  // `settings`: of the cases that are runs of simulate_case(), as its user gives them.
+  Results(const std::filesystem::path& root, const std::string& experiment, std::vector<std::string> settings = {})
+      : folder_(root / experiment), settings_(std::move(settings)) {
     std::filesystem::create_directories(folder_);
   }
 
   const std::filesystem::path& folder() const { return folder_; }
   std::filesystem::path path(const std::string& name) const { return folder_ / (name + ".csv"); }
   bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
+  const std::vector<std::string>& settings() const { return settings_; }
 
   // Writes <name>.csv as a whole: version, compiler and `parameters` as comment lines, then the rows.
   void write(const std::string& name, const std::vector<std::string>& header,
@@ -68,6 +72,7 @@ class Results {
 
  private:
   std::filesystem::path folder_;
+  std::vector<std::string> settings_;
 };
 
 // The value of a published number in reference_data/<experiment>.csv; NaN if there is none.
@@ -96,7 +101,8 @@ inline std::string help_of(const Experiment& experiment) {
                             "case=NAME    computes one case and writes DIR/", name, "/NAME.csv\n",
                             "collect      combines the cases that are there into tables in DIR/", name, "\n",
                             "list         prints the names of the cases\n",
-                            "results=DIR  folder of all results, `results` if not given\n\n",
+                            "results=DIR  folder of all results, `results` if not given\n",
+                            "checkpoint_every=SECONDS  of long cases, 60 if not given\n\n",
                             "`make ", name, "` does all of it. The cases:\n");
   for (const std::string& each : experiment.cases) text += concat("  ", each, "\n");
   return text;
@@ -108,10 +114,13 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
   const std::string usage = usage_of(experiment.name);
   try {
     std::string task, root = "results";
+    std::vector<std::string> settings;
     for (int i = 1; i < argc; ++i) {
       const std::string argument = argv[i];
       if (argument.starts_with("results="))
         root = argument.substr(8);
+      else if (argument.starts_with("checkpoint_every="))
+        settings.push_back(argument);
       else if (task.empty())
         task = argument;
       else
@@ -134,7 +143,7 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
     if (std::find(experiment.cases.begin(), experiment.cases.end(), name) == experiment.cases.end())
       throw InputError(concat("no case ", quote(name), "; did you mean ", nearest_name(name, experiment.cases), "?"));
     set_thread_count(1);
-    experiment.run(name, Results(root, experiment.name));
+    experiment.run(name, Results(root, experiment.name, settings));
     return 0;
   } catch (const Interruption& end) {
     std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), end.message.c_str());

@@ -2,10 +2,15 @@
 // and iterations. Beside the exact gap, nodes clustered near contacts: interference volumes (_stiv), 32 nodes
 // at equal steps (_plain), 64 nodes, a tolerance of 1e-8, adaptive steps. A run that fails is a result: `completed` and
 // the comment `ending` tell when and why.
+//
+// The folder of a case holds a case file and its bodies, which `simulate` reads too, and the run; an interrupted run goes
+// on from its checkpoint.
 
 #include <chrono>
+#include <numeric>
 
-#include "experiment.hpp"
+#include "case_run.hpp"
+#include "checkpoint.hpp"
 #include "taylor_green.hpp"
 
 namespace {
@@ -15,13 +20,13 @@ using namespace stokes;
 const std::vector<std::string> time_steps = {"0.025", "0.0125", "0.00625"};
 const std::vector<double> snapshot_times = {0.0, 15.0, 30.0};
 
-struct Case {
+struct TaylorGreenCase {
   std::string name;
   TaylorGreen parameters;
 };
 
-std::vector<Case> all_cases() {
-  std::vector<Case> all;
+std::vector<TaylorGreenCase> all_cases() {
+  std::vector<TaylorGreenCase> all;
   for (const std::string& time_step : time_steps) {
     TaylorGreen parameters;
     parameters.time_step = *parse_number(time_step);
@@ -46,88 +51,107 @@ std::vector<Case> all_cases() {
   return all;
 }
 
-Quantities summarise(const TaylorGreenRun& run) {
-  long ncp = 0, largest_ncp = 0, contact_steps = 0, steps = 0;
-  double contact_time = 0.0, smallest_dt = run.steps[0].dt, gap = run.steps[0].gap_over_h;
-  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0, force = 0.0, torque = 0.0;
-  double first_contact = std::nan("");
-  for (const TaylorGreenStep& step : run.steps) {
-    gap = std::min(gap, step.gap_over_h);
-    if (!step.moved) continue;
-    ++steps;
-    ncp += step.ncp_iterations;
-    largest_ncp = std::max<long>(largest_ncp, step.ncp_iterations);
-    smallest_dt = std::min(smallest_dt, step.dt);
-    smallest = std::min(smallest, step.smallest_multiplier);
-    largest = std::max(largest, step.largest_multiplier);
-    force = std::max(force, step.net_force);
-    torque = std::max(torque, step.net_torque);
-    if (step.contacts == 0) continue;
-    if (contact_steps++ == 0) first_contact = step.time;
-    contact_time += step.dt;
+// Of the contact forces on all bodies; the torque is about the origin.
+Wrench net_contact(const std::vector<RecordedBody>& bodies) {
+  Wrench net;
+  for (const auto& [pose, contact] : bodies) {
+    net.force += contact.force;
+    net.torque += contact.torque + cross(pose.centre, contact.force);
   }
-  const double end = run.steps.back().time;
-  const auto mean = [&](int TaylorGreenStep::*number) {
-    return mean_over_steps(run, [number](const TaylorGreenStep& step) { return step.*number; });
-  };
-  return {{"completed", run.failure.empty() ? 1.0 : 0.0},
-          {"end_time", end},
+  return net;
+}
+
+Quantities summarise(const RecordedRun& run, const RunSummary& ended, const std::string& failure) {
+  const std::vector<double> time = run.states("time"), gaps = run.states("min_gap"), dt = run.steps("dt");
+  const std::vector<double> contacts = run.steps("contacts"), ncp = run.steps("ncp_iterations");
+  const std::vector<double> multipliers = run.steps("smallest_multiplier"), largest_ones = run.steps("largest_multiplier");
+  const std::vector<double> gmres = run.steps("gmres_iterations");
+  const std::size_t steps = time.size() - 1;
+  double contact_steps = 0.0, contact_time = 0.0, smallest_dt = dt[0], force = 0.0, torque = 0.0, gap = gaps[0];
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0, first_contact = std::nan("");
+  for (std::size_t k = 0; k < steps; ++k) {
+    smallest_dt = std::min(smallest_dt, dt[k]);
+    smallest = std::fmin(smallest, multipliers[k]), largest = std::fmax(largest, largest_ones[k]);
+    const Wrench net = net_contact(run.bodies()[k]);
+    force = std::max(force, std::abs(net.force)), torque = std::max(torque, std::abs(net.torque));
+    if (contacts[k] == 0.0) continue;
+    if (contact_steps++ == 0.0) first_contact = time[k];
+    contact_time += dt[k];
+  }
+  for (const double g : gaps) gap = std::min(gap, g);
+  const double taken = std::max<double>(steps, 1);
+  return {{"completed", failure.empty() ? 1.0 : 0.0},
+          {"end_time", time.back()},
           {"steps", static_cast<double>(steps)},
-          {"rejected", run.failure.empty() ? static_cast<double>(run.summary.rejected) : std::nan("")},
+          {"rejected", failure.empty() ? static_cast<double>(ended.rejected) : std::nan("")},
           {"smallest_step", smallest_dt},
           {"first_contact", first_contact},
-          {"ncp_iterations", static_cast<double>(ncp)},
-          {"largest_ncp_iterations", static_cast<double>(largest_ncp)},
-          {"contact_share_of_steps", static_cast<double>(contact_steps) / static_cast<double>(std::max(steps, 1L))},
-          {"contact_share_of_time", contact_time / end},
-          {"gmres_iterations_per_step", mean(&TaylorGreenStep::gmres_iterations)},
-          {"background_iterations_per_step", mean(&TaylorGreenStep::background_iterations)},
-          {"smallest_gap_over_h", gap},
+          {"ncp_iterations", std::accumulate(ncp.begin(), ncp.end(), 0.0)},
+          {"largest_ncp_iterations", *std::max_element(ncp.begin(), ncp.end())},
+          {"contact_share_of_steps", contact_steps / taken},
+          {"contact_share_of_time", contact_time / time.back()},
+          {"gmres_iterations_per_step", std::accumulate(gmres.begin(), gmres.end(), 0.0) / taken},
+          {"smallest_gap_over_h", gap / taylor_green_spacing()},
           {"smallest_multiplier", smallest},
           {"largest_multiplier", largest},
           {"net_force", force},
           {"net_torque", torque}};
 }
 
-void write_track(const std::string& name, const TaylorGreenRun& run, const Results& results) {
+void write_track(const std::string& name, const RecordedRun& run, const Results& results) {
+  const std::vector<double> time = run.states("time"), gaps = run.states("min_gap"), dt = run.steps("dt");
+  const std::vector<double> contacts = run.steps("contacts"), ncp = run.steps("ncp_iterations");
+  const std::vector<double> gmres = run.steps("gmres_iterations");
   std::vector<std::vector<double>> rows;
-  for (const TaylorGreenStep& s : run.steps)
-    rows.push_back({s.time, s.dt, s.coloured.centre.real(), s.coloured.centre.imag(), s.coloured.angle,
-                    s.coloured_in_contact ? 1.0 : 0.0, static_cast<double>(s.contacts),
-                    static_cast<double>(s.ncp_iterations), static_cast<double>(s.gmres_iterations),
-                    static_cast<double>(s.background_iterations), s.gap_over_h});
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const Pose& pose = run.bodies()[k][coloured_body].pose;
+    rows.push_back({time[k], dt[k], pose.centre.real(), pose.centre.imag(), pose.angle,
+                    run.in_contact(k, coloured_body) ? 1.0 : 0.0, contacts[k], ncp[k], gmres[k],
+                    gaps[k] / taylor_green_spacing()});
+  }
   results.write(name + "_track",
                 {"time", "dt", "x", "y", "theta", "in_contact", "contacts", "ncp_iterations", "gmres_iterations",
-                 "background_iterations", "gap_over_h"},
+                 "gap_over_h"},
                 rows);
 }
 
-void run_case(const std::string& name, const Results& results) {
-  const std::vector<Case> all = all_cases();
-  const Case& chosen = *std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; });
-  std::vector<std::vector<double>> snapshots;
-  std::vector<bool> in_contact(taylor_green_bodies().size());  // in the step that led here
-  std::size_t next = 0;
-  const auto observe = [&](const StepRecord& record) {
-    if (next < snapshot_times.size() && record.time > snapshot_times[next] - 1e-9) {
-      for (std::size_t i = 0; i < record.bodies.size(); ++i) {
-        const Pose& pose = record.bodies[i].pose;
-        snapshots.push_back({record.time, static_cast<double>(i), pose.centre.real(), pose.centre.imag(), pose.angle,
-                             i == coloured_body ? 1.0 : 0.0, in_contact[i] ? 1.0 : 0.0});
-      }
-      ++next;
+// in_contact: in the step that led there.
+void write_snapshots(const std::string& name, const RecordedRun& run, const Results& results) {
+  const std::vector<double> time = run.states("time");
+  std::vector<std::vector<double>> rows;
+  for (const std::size_t k : run.states_at(snapshot_times))
+    for (std::size_t i = 0; i < run.bodies()[k].size(); ++i) {
+      const Pose& pose = run.bodies()[k][i].pose;
+      rows.push_back({time[k], static_cast<double>(i), pose.centre.real(), pose.centre.imag(), pose.angle,
+                      i == coloured_body ? 1.0 : 0.0, run.was_in_contact(k, i) ? 1.0 : 0.0});
     }
-    std::fill(in_contact.begin(), in_contact.end(), false);
-    if (!record.outcome) return;
-    for (const ActiveContact& c : record.outcome->contacts) in_contact[c.constraint.a] = in_contact[c.constraint.b] = true;
-  };
+  results.write(name + "_snapshots", {"time", "body", "x", "y", "theta", "coloured", "in_contact"}, rows);
+}
+
+// The seconds are those of a run that was not interrupted.
+void run_case(const std::string& name, const Results& results) {
+  const std::vector<TaylorGreenCase> all = all_cases();
+  const TaylorGreenCase& chosen = *std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+  const Case c = write_case(name, taylor_green_case(chosen.parameters), taylor_green_bodies(), results);
+  const CheckpointFile checkpoint(c, read_suspension(c));
+  const bool goes_on = checkpoint.read().has_value();
+  RunSummary ended;
+  std::string failure;
   const auto start = std::chrono::steady_clock::now();
-  const TaylorGreenRun run = run_taylor_green(taylor_green_bodies(), chosen.parameters, observe);
+  try {
+    ended = simulate_case(c, name);
+  } catch (const NumericalError& error) {
+    failure = error.what();
+  }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const RecordedRun run(c.output);
+  if (!run.has_ended()) throw NumericalError(failure);  // its results could not be written
   write_track(name, run, results);
-  results.write(name + "_snapshots", {"time", "body", "x", "y", "theta", "coloured", "in_contact"}, snapshots);
-  results.write(name + "_timing", {{"seconds", seconds}});
-  results.write(name, summarise(run), {{"ending", run.failure.empty() ? "end_time" : run.failure}});
+  write_snapshots(name, run, results);
+  std::filesystem::remove(results.path(name + "_timing"));
+  if (!goes_on) results.write(name + "_timing", {{"seconds", seconds}});
+  results.write(name, summarise(run, ended, failure), {{"ending", failure.empty() ? "end_time" : failure}});
+  checkpoint.remove();  // of a failure, which is now reported
 }
 
 // The centre of the coloured body: it moves linearly within a step.
@@ -195,7 +219,7 @@ void collect(const Results& results) {
 
 std::vector<std::string> cases() {
   std::vector<std::string> names;
-  for (const Case& c : all_cases()) names.push_back(c.name);
+  for (const TaylorGreenCase& c : all_cases()) names.push_back(c.name);
   return names;
 }
 

@@ -2,10 +2,14 @@
 // Cases: seed1 to seed3, random starts; _stiv: interference volumes; _plain: 32 nodes at equal steps, without clusters
 // near contacts; _wall64: fewer nodes on the walls; delta*h: seed 1 with other separations; near*h: starts up to the
 // ring; free_dt*: no contact, other steps; undisturbed: a lone disc; quick: only to t = 1.
+//
+// The folder of a case holds a case file and its bodies, which `simulate` reads too, and the run; an interrupted run goes
+// on from its checkpoint. Of the run, <case>_steps.csv has every step, <case>_snapshots.csv the bodies at some times.
 
-#include "experiment.hpp"
+#include <numeric>
+
+#include "gap.hpp"
 #include "injection.hpp"
-#include "neighbours.hpp"
 
 namespace {
 
@@ -13,13 +17,13 @@ using namespace stokes;
 
 const std::vector<double> snapshot_times = {0.0, 2.0, 3.9, 4.0, 4.1, 6.0, 8.0};
 
-struct Case {
+struct InjectionCase {
   std::string name;
   Injection parameters;
 };
 
-std::vector<Case> all_cases() {
-  std::vector<Case> all;
+std::vector<InjectionCase> all_cases() {
+  std::vector<InjectionCase> all;
   const auto add = [&](const std::string& name) -> Injection& {
     all.push_back({name, {}});
     return all.back().parameters;
@@ -49,128 +53,121 @@ std::vector<Case> all_cases() {
   return all;
 }
 
-// What happened in a run, state by state.
-class Log {
- public:
-  Log(const Suspension& start, const Injection& parameters)
-      : start_(start), parameters_(parameters), in_contact_(start.size()), ever_in_contact_(start.size()) {}
-
-  void add(const StepRecord& record) {
-    last_ = record.bodies;
-    gap_ = std::min(gap_, record.min_gap);
-    double to_ring = 1e300, between = 1e300;
-    for (int i = 0; i < free_count; ++i)
-      for (int j = i + 1; j < free_count + ring_count; ++j) {
-        double& smallest = j < free_count ? between : to_ring;
-        smallest = std::min(smallest, gap(record.bodies[i], record.bodies[j]).value);
-      }
-    to_ring_ = std::min(to_ring_, to_ring), between_ = std::min(between_, between);
-    if (record.step == 0) mark_contacts(record);
-    const long contacts = record.outcome ? static_cast<long>(record.outcome->contacts.size()) : 0;
-    if (next_ < snapshot_times.size() && record.time > snapshot_times[next_] - 1e-9) {
-      take_snapshot(record);
-      ++next_;
-    }
-    const double h = injection_spacing();
-    steps_.push_back({record.time, static_cast<double>(contacts), record.min_gap / h, to_ring / h, between / h,
-                      record.outcome ? record.outcome->gmres_iterations : 0.0,
-                      record.outcome ? record.outcome->ncp_iterations : 0.0});
-    mark_contacts(record);
-    if (record.outcome) add_outcome(*record.outcome, record.time);
-  }
-
-  void write(const std::string& name, const Results& results) const {
-    results.write(name + "_snapshots",
-                  {"time", "body", "x", "y", "theta", "radius", "fixed", "in_contact", "force_x", "force_y", "torque"},
-                  snapshots_);
-    results.write(name + "_steps",
-                  {"time", "contacts", "gap_over_h", "gap_to_ring_over_h", "gap_between_free_over_h",
-                   "gmres_iterations", "ncp_iterations"},
-                  steps_);
-    results.write(name, summary(),
-                  {{"seed", format_number(static_cast<double>(parameters_.seed))},
-                   {"time_step", format_number(parameters_.time_step)},
-                   {"separation_over_h", format_number(parameters_.separation_over_h)}});
-  }
-
- private:
-  void mark_contacts(const StepRecord& record) {
-    std::fill(in_contact_.begin(), in_contact_.end(), false);
-    if (!record.outcome) return;
-    for (const ActiveContact& c : record.outcome->contacts)
-      for (const int body : {c.constraint.a, c.constraint.b})
-        if (body != container_index) in_contact_[body] = ever_in_contact_[body] = true;
-  }
-
-  // in_contact: in the step that led here, at the start in the first one; forces: of the step from here.
-  void take_snapshot(const StepRecord& record) {
-    double touching = 0.0;
-    for (std::size_t i = 0; i < record.bodies.size(); ++i) {
-      const Body& body = record.bodies[i];
-      const Wrench w = record.outcome ? record.outcome->contact_wrench[i] : Wrench{};
-      snapshots_.push_back({record.time, static_cast<double>(i), body.pose.centre.real(), body.pose.centre.imag(),
-                            body.pose.angle, body.shape.a, body.fixed ? 1.0 : 0.0, in_contact_[i] ? 1.0 : 0.0,
-                            w.force.real(), w.force.imag(), w.torque});
-      if (!body.fixed && in_contact_[i]) ++touching;
-    }
-    touching_.push_back({concat("in_contact_at_", snapshot_times[next_]), touching});
-  }
-
-  void add_outcome(const StepOutcome& outcome, double time) {
-    for (const Wrench& w : outcome.contact_wrench) largest_force_ = std::max(largest_force_, std::abs(w.force));
-    largest_ncp_ = std::max<double>(largest_ncp_, outcome.ncp_iterations);
-    gmres_ += outcome.gmres_iterations;
-    if (outcome.contacts.empty()) return;
-    if (std::isnan(first_contact_)) first_contact_ = time;
-    last_contact_ = time + outcome.dt;
-  }
-
-  Quantities summary() const {
-    std::vector<double> moved;
-    double sum = 0.0;
-    for (int i = 0; i < free_count; ++i) {
-      moved.push_back(std::abs(last_[i].pose.centre - start_[i].pose.centre));
-      sum += moved.back();
-    }
-    const auto farthest = std::max_element(moved.begin(), moved.end()) - moved.begin();
-    std::vector<double> sorted = moved;
-    std::sort(sorted.begin(), sorted.end());
-    const double h = injection_spacing();
-    Quantities row = {{"mean_displacement", sum / free_count},
-                      {"median_displacement", 0.5 * (sorted[free_count / 2 - 1] + sorted[free_count / 2])},
-                      {"largest_displacement", sorted.back()},
-                      {"farthest_was_in_contact", ever_in_contact_[farthest] ? 1.0 : 0.0},
-                      {"smallest_gap_over_separation", gap_ / (parameters_.separation_over_h * h)},
-                      {"smallest_gap_over_h", gap_ / h},
-                      {"smallest_gap_to_ring_over_h", to_ring_ / h},
-                      {"smallest_gap_between_free_over_h", between_ / h},
-                      {"first_contact", first_contact_},
-                      {"last_contact", last_contact_},
-                      {"bodies_ever_in_contact", static_cast<double>(std::count(ever_in_contact_.begin(), ever_in_contact_.begin() + free_count, true))},
-                      {"largest_contact_force", largest_force_},
-                      {"largest_ncp_iterations", largest_ncp_},
-                      {"gmres_iterations_per_step", gmres_ / static_cast<double>(steps_.size() - 1)}};
-    row.insert(row.end(), touching_.begin(), touching_.end());
-    return row;
-  }
-
-  const Suspension& start_;
-  Injection parameters_;
-  Suspension last_;
-  std::vector<bool> in_contact_, ever_in_contact_;
-  std::vector<std::vector<double>> snapshots_, steps_;
-  Quantities touching_;
-  std::size_t next_ = 0;
-  double gap_ = 1e300, to_ring_ = 1e300, between_ = 1e300;
-  double first_contact_ = std::nan(""), last_contact_ = std::nan(""), largest_force_ = 0.0, largest_ncp_ = 0.0, gmres_ = 0.0;
+// Smallest gaps of free discs in a state.
+struct FreeGaps {
+  double to_ring = 1e300, between = 1e300;
 };
+
+FreeGaps free_gaps(const std::vector<RecordedBody>& bodies) {
+  const auto disc = [&](int i) { return Body{injection_disc, bodies[i].pose, {}, {}}; };
+  FreeGaps smallest;
+  for (int i = 0; i < free_count; ++i)
+    for (int j = i + 1; j < free_count + ring_count; ++j) {
+      double& of_kind = j < free_count ? smallest.between : smallest.to_ring;
+      of_kind = std::min(of_kind, gap(disc(i), disc(j)).value);
+    }
+  return smallest;
+}
+
+// in_contact: in the step that led here, at the start in the first one; forces: of the step from here.
+void write_snapshots(const std::string& name, const Suspension& start, const RecordedRun& run, const Results& results) {
+  const std::vector<double> time = run.states("time");
+  std::vector<std::vector<double>> rows;
+  for (const std::size_t k : run.states_at(snapshot_times))
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const auto& [pose, contact] = run.bodies()[k][i];
+      rows.push_back({time[k], static_cast<double>(i), pose.centre.real(), pose.centre.imag(), pose.angle, start[i].shape.a,
+                      start[i].fixed ? 1.0 : 0.0, run.was_in_contact(k, i) ? 1.0 : 0.0, contact.force.real(),
+                      contact.force.imag(), contact.torque});
+    }
+  results.write(name + "_snapshots",
+                {"time", "body", "x", "y", "theta", "radius", "fixed", "in_contact", "force_x", "force_y", "torque"}, rows);
+}
+
+// How far the free discs come back from their starts.
+Quantities displacements(const RecordedRun& run) {
+  std::vector<double> moved;
+  double sum = 0.0;
+  for (int i = 0; i < free_count; ++i) {
+    moved.push_back(std::abs(run.bodies().back()[i].pose.centre - run.bodies()[0][i].pose.centre));
+    sum += moved.back();
+  }
+  const auto farthest = std::max_element(moved.begin(), moved.end()) - moved.begin();
+  bool was_in_contact = false;
+  for (std::size_t k = 0; k < run.bodies().size(); ++k) was_in_contact |= run.in_contact(k, farthest);
+  std::sort(moved.begin(), moved.end());
+  return {{"mean_displacement", sum / free_count},
+          {"median_displacement", 0.5 * (moved[free_count / 2 - 1] + moved[free_count / 2])},
+          {"largest_displacement", moved.back()},
+          {"farthest_was_in_contact", was_in_contact ? 1.0 : 0.0}};
+}
+
+Quantities contacts_of(const RecordedRun& run) {
+  const std::vector<double> time = run.states("time"), dt = run.steps("dt"), contacts = run.steps("contacts");
+  const std::vector<double> ncp = run.steps("ncp_iterations"), gmres = run.steps("gmres_iterations");
+  double first = std::nan(""), last = std::nan(""), ever = 0.0, force = 0.0;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    for (const RecordedBody& body : run.bodies()[k]) force = std::max(force, std::abs(body.contact.force));
+    if (contacts[k] == 0.0) continue;
+    if (std::isnan(first)) first = time[k];
+    last = time[k] + dt[k];
+  }
+  for (int i = 0; i < free_count; ++i) {
+    std::size_t k = 0;
+    while (k < time.size() && !run.in_contact(k, i)) ++k;
+    ever += k < time.size();
+  }
+  Quantities row = {{"first_contact", first},
+                    {"last_contact", last},
+                    {"bodies_ever_in_contact", ever},
+                    {"largest_contact_force", force},
+                    {"largest_ncp_iterations", *std::max_element(ncp.begin(), ncp.end())},
+                    {"gmres_iterations_per_step", std::accumulate(gmres.begin(), gmres.end(), 0.0) / (gmres.size() - 1.0)}};
+  const std::vector<std::size_t> snapshots = run.states_at(snapshot_times);
+  for (std::size_t s = 0; s < snapshots.size(); ++s) {
+    double touching = 0.0;
+    for (int i = 0; i < free_count; ++i) touching += run.was_in_contact(snapshots[s], i);
+    row.push_back({concat("in_contact_at_", snapshot_times[s]), touching});
+  }
+  return row;
+}
+
+void report(const InjectionCase& chosen, const Suspension& start, const RecordedRun& run, const Results& results) {
+  const double h = injection_spacing();
+  const std::vector<double> time = run.states("time"), gaps = run.states("min_gap"), contacts = run.steps("contacts");
+  const std::vector<double> gmres = run.steps("gmres_iterations"), ncp = run.steps("ncp_iterations");
+  FreeGaps smallest;
+  std::vector<std::vector<double>> rows;
+  for (std::size_t k = 0; k < time.size(); ++k) {
+    const FreeGaps now = free_gaps(run.bodies()[k]);
+    smallest = {std::min(smallest.to_ring, now.to_ring), std::min(smallest.between, now.between)};
+    rows.push_back({time[k], contacts[k], gaps[k] / h, now.to_ring / h, now.between / h, gmres[k], ncp[k]});
+  }
+  write_snapshots(chosen.name, start, run, results);
+  results.write(chosen.name + "_steps",
+                {"time", "contacts", "gap_over_h", "gap_to_ring_over_h", "gap_between_free_over_h", "gmres_iterations",
+                 "ncp_iterations"},
+                rows);
+  const Injection& parameters = chosen.parameters;
+  const double gap = *std::min_element(gaps.begin(), gaps.end());
+  Quantities row = displacements(run);
+  row.push_back({"smallest_gap_over_separation", gap / (parameters.separation_over_h * h)});
+  row.push_back({"smallest_gap_over_h", gap / h});
+  row.push_back({"smallest_gap_to_ring_over_h", smallest.to_ring / h});
+  row.push_back({"smallest_gap_between_free_over_h", smallest.between / h});
+  for (const auto& quantity : contacts_of(run)) row.push_back(quantity);
+  results.write(chosen.name, row,
+                {{"seed", format_number(static_cast<double>(parameters.seed))},
+                 {"time_step", format_number(parameters.time_step)},
+                 {"separation_over_h", format_number(parameters.separation_over_h)}});
+}
 
 // The driving by itself: the flow without bodies at points, and lone discs, which a potential flow carries along like
 // points, r^2 - r0^2 = t, but for what the walls reflect of their disturbance, proportional to their area.
 void run_undisturbed(const Results& results) {
   const Injection parameters;
-  const SimulationOptions options = injection_options(parameters);
   const Suspension walls = between_walls({}, injection_annulus(parameters));
+  const SimulationOptions options = options_of(injection_case(parameters), walls);
   ShapeCache shapes;
   const StokesSystem system(walls, injection_points, shapes, options.stepper.stokes);
   const BackgroundFlow driving{FlowKind::none, 1.0, 1.0};
@@ -200,12 +197,12 @@ void run_undisturbed(const Results& results) {
 
 void run_case(const std::string& name, const Results& results) {
   if (name == "undisturbed") return run_undisturbed(results);
-  const std::vector<Case> all = all_cases();
-  const Injection& parameters = std::find_if(all.begin(), all.end(), [&](const Case& c) { return c.name == name; })->parameters;
-  const Suspension start = injection_bodies(parameters);
-  Log log(start, parameters);
-  simulate(start, injection_options(parameters), [&](const StepRecord& record) { log.add(record); });
-  log.write(name, results);
+  const std::vector<InjectionCase> all = all_cases();
+  const InjectionCase& chosen = *std::find_if(all.begin(), all.end(), [&](const auto& c) { return c.name == name; });
+  const Suspension start = injection_bodies(chosen.parameters);
+  const Case c = write_case(name, injection_case(chosen.parameters), start, results);
+  simulate_case(c, name);
+  report(chosen, start, RecordedRun(c.output), results);
 }
 
 // delta_scan.csv: the separations from the same start; summary.csv: the order of the reversal error, and the seeds.
@@ -241,7 +238,7 @@ void collect(const Results& results) {
 
 std::vector<std::string> cases() {
   std::vector<std::string> names = {"undisturbed"};
-  for (const Case& c : all_cases()) names.push_back(c.name);
+  for (const InjectionCase& c : all_cases()) names.push_back(c.name);
   return names;
 }
 

@@ -61,7 +61,7 @@ double median(std::vector<double> values) {
 
 std::vector<GridPoint> flow_of(const Frame& frame, double driving, Contacts contacts) {
   std::vector<GridPoint> grid =
-      flow_on_grid(frame.bodies, injection_options({}).stepper, driving,
+      flow_on_grid(frame.bodies, options_of(injection_case({}), frame.bodies).stepper, driving,
                    contacts == Contacts::answered ? frame.contact : std::vector<Wrench>{}, view, grid_points);
   if (contacts != Contacts::unanswered) return grid;
   for (int i = 0; i < free_count; ++i)

@@ -2,8 +2,8 @@
 // discs and a ring of 41 fixed ones.
 #pragma once
 
+#include "case_run.hpp"
 #include "packing.hpp"
-#include "simulation.hpp"
 
 namespace stokes {
 
@@ -47,18 +47,17 @@ inline Suspension injection_bodies(const Injection& parameters) {
   return between_walls(std::move(bodies), injection_annulus(parameters));
 }
 
-inline SimulationOptions injection_options(const Injection& parameters) {
-  SimulationOptions options;
-  options.stepper.flow.kind = FlowKind::none;
-  options.stepper.points_per_body = injection_points;
-  options.stepper.refine = parameters.refine;
-  options.stepper.stokes.gmres_tolerance = 1e-6;
-  options.stepper.contact = parameters.contact;
-  options.stepper.separation = parameters.separation_over_h * injection_spacing();
-  options.time_step = parameters.time_step;
-  options.end_time = parameters.end_time;
-  options.reverse_at = parameters.reverse_at;
-  return options;
+inline Case injection_case(const Injection& parameters) {
+  Case c = case_between(injection_annulus(parameters));
+  c.points_per_body = injection_points;
+  c.refine = parameters.refine;
+  c.gmres_tolerance = 1e-6;
+  c.contact = parameters.contact;
+  c.min_separation_length = parameters.separation_over_h * injection_spacing();
+  c.time_step = parameters.time_step;
+  c.end_time = parameters.end_time;
+  c.reverse_at = parameters.reverse_at;
+  return c;
 }
 
 }  // namespace stokes

@@ -209,6 +209,17 @@ Suspension parse_bodies(std::string_view content, const std::string& file_name, 
   return bodies;
 }
 
+std::string format_bodies(const Suspension& bodies) {
+  std::string text = "a,b,x,y,theta,force_x,force_y,torque,fixed\n";
+  for (const Body& body : bodies) {
+    if (body.points != 0) continue;  // a wall
+    text += concat(body.shape.a, ",", body.shape.b, ",", body.pose.centre.real(), ",", body.pose.centre.imag(), ",",
+                   body.pose.angle, ",", body.force.real(), ",", body.force.imag(), ",", body.torque, ",",
+                   body.fixed ? 1 : 0, "\n");
+  }
+  return text;
+}
+
 std::string bodies_help() {
   std::string text =
       "The bodies' file is a CSV: a header line, a row for each body, columns in any order.\n\n";

@@ -19,6 +19,9 @@ Suspension parse_bodies(std::string_view content, const std::string& file_name);
 // on a fixed body does nothing), and no body may overlap or touch another one or a wall.
 Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus);
 
+// The content of such a file, with every column, which reads back as the same bodies. Walls have no row.
+std::string format_bodies(const Suspension& bodies);
+
 // What a user can write there.
 std::string bodies_help();
 

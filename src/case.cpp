@@ -202,6 +202,12 @@ Comments describe(const Case& parameters) {
   return lines;
 }
 
+std::string format_case(const Case& parameters) {
+  std::string text;
+  for (const auto& [key, value] : describe(parameters)) text += concat(key, " = ", value, "\n");
+  return concat(text, "output = ", parameters.output, "\n");
+}
+
 std::string case_help() {
   const Case defaults;
   std::string text =

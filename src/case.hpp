@@ -86,9 +86,11 @@ Suspension parse_suspension(const Case& parameters, std::string_view content);
 double separation_length(const Case& parameters, const Suspension& bodies);
 
 // Every key of the case's geometry but `threads`, `output` and `checkpoint_every` (results are the same bytes
-// whatever these are) with its value, defaults included: the comment lines of a
-// result. Written as `key = value` they make the same case.
+// whatever these are) with its value, defaults included.
 Comments describe(const Case& parameters);
+
+// The content of a case file that makes the same case again, but for `threads` and `checkpoint_every`.
+std::string format_case(const Case& parameters);
 
 // What a user can write: every key with its default and values, and the columns of the bodies' file.
 std::string case_help();

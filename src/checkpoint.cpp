@@ -7,7 +7,7 @@ namespace stokes {
 
 namespace {
 
-constexpr std::string_view first_line = "checkpoint of simulate, format 2";
+constexpr std::string_view first_line = "checkpoint of simulate, format 3";
 
 // What has to be the same for a run to go on: the case, and every number of the bodies at its beginning.
 std::vector<std::string> description_of(const Case& c, const Suspension& initial) {
@@ -251,7 +251,7 @@ std::optional<Checkpoint> CheckpointFile::read() const {
     return InputError(concat(name, ": the checkpoint is damaged: ", how, "; put it back, ", start_anew));
   };
   const auto end = text.rfind("checksum ");
-  if (!text.starts_with(first_line) || end == std::string::npos) throw damaged("it is not complete");
+  if (!text.starts_with(first_line) || end == std::string::npos) throw damaged("it is not complete, or of another version");
   if (text.substr(end) != concat("checksum ", std::to_string(checksum(std::string_view(text).substr(0, end))), "\n"))
     throw damaged("its checksum is wrong");
   try {

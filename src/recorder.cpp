@@ -15,8 +15,9 @@ constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.c
 const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x",  "y",  "theta",
                                                      "ux",   "uy",   "omega", "fx", "fy", "torque"};
 std::vector<std::string> steps_columns(StepsColumns columns) {
-  std::vector<std::string> names = {"step",           "time",     "dt",      "gmres_iterations",
-                                    "ncp_iterations", "contacts", "min_gap", "density_tail", "stokes_solves"};
+  std::vector<std::string> names = {"step",           "time",         "dt",            "gmres_iterations",
+                                    "ncp_iterations", "contacts",     "min_gap",       "density_tail",
+                                    "stokes_solves",  "smallest_multiplier", "largest_multiplier"};
   if (columns == StepsColumns::between_walls)
     names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity", "stresslet_shear",
                                "stresslet_normal_difference", "contact_shear", "contact_normal_difference"});
@@ -132,9 +133,12 @@ void Recorder::write(const StepRecord& record) {
   }
   Row summary = {step, record.time};
   if (outcome) {
+    double smallest = nan, largest = nan;
+    for (const ActiveContact& c : outcome->contacts)
+      smallest = std::fmin(smallest, c.multiplier), largest = std::fmax(largest, c.multiplier);
     for (double value : {outcome->dt, static_cast<double>(outcome->gmres_iterations),
                          static_cast<double>(outcome->ncp_iterations), contact_count(*outcome), record.min_gap,
-                         outcome->density_tail, static_cast<double>(outcome->stokes_solves)})
+                         outcome->density_tail, static_cast<double>(outcome->stokes_solves), smallest, largest})
       summary.push_back(value);
     if (columns_ == StepsColumns::between_walls) {
       const ParticleStress stress = particle_stress(record.bodies, *outcome);

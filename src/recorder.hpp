@@ -22,11 +22,13 @@ const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 //   The configuration at the start of a step, the velocities and the contact forces and torques that moved
 //   it; every `output_every`-th step, the first and the last; the final configuration is one more step
 //   whose other fields are nan.
-// steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves
-//   A row for every step and one for the final configuration. Between walls there are more columns: inner_torque and
-//   outer_torque, of the inner wall (the last body) and of the container on the fluid, about their centres; and
-//   order_parameter, effective_viscosity, stresslet_shear, stresslet_normal_difference, contact_shear,
-//   contact_normal_difference (rheology.hpp).
+// steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,
+//            smallest_multiplier,largest_multiplier
+//   A row for every step and one for the final configuration. The multipliers are those of the step's contacts, nan
+//   without any: forces, or, with interference volumes, factors of the volumes' gradients. Between walls there are more
+//   columns: inner_torque and outer_torque, of the inner wall (the last body) and of the container on the fluid, about
+//   their centres; and order_parameter, effective_viscosity, stresslet_shear, stresslet_normal_difference,
+//   contact_shear, contact_normal_difference (rheology.hpp).
 enum class StepsColumns { unbounded, between_walls };
 
 class Recorder {

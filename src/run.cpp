@@ -21,28 +21,6 @@ namespace {
 
 constexpr double resolved_tail = 1e-3;  // share of the density's energy in its top modes
 
-SimulationOptions options_of(const Case& c, double separation) {
-  SimulationOptions options;
-  options.stepper.flow = {c.flow, c.rate};
-  options.stepper.points_per_body = c.points_per_body;
-  options.stepper.refine = c.refine;
-  options.stepper.stokes.gmres_tolerance = c.gmres_tolerance;
-  options.stepper.stokes.summation = c.summation;
-  options.stepper.near_singular = c.near_singular;
-  options.stepper.contact = c.contact;
-  options.stepper.separation = separation;
-  options.stepper.coupling = c.coupling;
-  options.stepper.lcp_matrix = c.lcp_matrix;
-  options.stepper.stiv_vertices = c.stiv_vertices;
-  options.stepper.stiv_gradient = c.stiv_gradient;
-  options.time_step = c.time_step;
-  options.end_time = c.end_time;
-  options.reverse_at = c.reverse_at;
-  options.time_counting = c.time_counting;
-  options.adaptive = c.adaptive;
-  return options;
-}
-
 void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separation, Progress& progress) {
   const ClosestPair closest = smallest_gap(bodies);
   if (c.contact != ContactModel::none && closest.gap < separation)
@@ -151,9 +129,31 @@ class Checkpoints {
 
 }  // namespace
 
+SimulationOptions options_of(const Case& c, const Suspension& bodies) {
+  SimulationOptions options;
+  options.stepper.flow = {c.flow, c.rate};
+  options.stepper.points_per_body = c.points_per_body;
+  options.stepper.refine = c.refine;
+  options.stepper.stokes.gmres_tolerance = c.gmres_tolerance;
+  options.stepper.stokes.summation = c.summation;
+  options.stepper.near_singular = c.near_singular;
+  options.stepper.contact = c.contact;
+  options.stepper.separation = separation_length(c, bodies);
+  options.stepper.coupling = c.coupling;
+  options.stepper.lcp_matrix = c.lcp_matrix;
+  options.stepper.stiv_vertices = c.stiv_vertices;
+  options.stepper.stiv_gradient = c.stiv_gradient;
+  options.time_step = c.time_step;
+  options.end_time = c.end_time;
+  options.reverse_at = c.reverse_at;
+  options.time_counting = c.time_counting;
+  options.adaptive = c.adaptive;
+  return options;
+}
+
 RunSummary simulate_case(const Case& c, const std::string& label) {
   const Suspension bodies = read_suspension(c);
-  const double separation = separation_length(c, bodies);
+  SimulationOptions options = options_of(c, bodies);
   if (c.threads) set_thread_count(*c.threads);
 
   const CheckpointFile file(c, bodies);
@@ -169,9 +169,8 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   if (start)
     progress.message(concat("going on from step ", start->run.clock.step, ", time ", start->run.clock.time));
   else
-    warn_of_small_gaps(c, bodies, separation, progress);
+    warn_of_small_gaps(c, bodies, options.stepper.separation, progress);
 
-  SimulationOptions options = options_of(c, separation);
   if (start) options.start = start->run;
   Checkpoints checkpoints(file, recorder, c.checkpoint_every);
   options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };

@@ -13,6 +13,9 @@ struct Interruption {
   std::string message;
 };
 
+// How the steps of a case are made.
+SimulationOptions options_of(const Case& c, const Suspension& bodies);
+
 // Runs a case, from the checkpoint in its output folder if there is one of the same run: with the results that an
 // uninterrupted run writes, to the byte. Progress and warnings go to stderr, progress lines behind `label`.
 // SIGINT and SIGTERM end it with an Interruption after the step under way, a second signal at once.

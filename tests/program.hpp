@@ -44,6 +44,16 @@ inline std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// Every file and folder with its content, by its name in the folder.
+inline std::map<std::string, std::string> everything_in(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().lexically_relative(folder).string();
+    files[name] = entry.is_regular_file() ? content_of(entry.path()) : "(not a file)";
+  }
+  return files;
+}
+
 struct ProgramRun {
   int status;  // exit status; 128 + signal if one ended it
   std::string output, errors;
@@ -122,13 +132,7 @@ class Workspace {
     return {read_csv(path() / output / "trajectory.csv"), read_csv(path() / output / "steps.csv")};
   }
 
-  // Every file and folder with its content.
-  std::map<std::string, std::string> everything() const {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path()))
-      files[entry.path().string()] = entry.is_regular_file() ? content_of(entry.path()) : "(not a file)";
-    return files;
-  }
+  std::map<std::string, std::string> everything() const { return everything_in(path()); }
 
  private:
   ProgramRun run_by(const std::string& starter, const std::vector<std::string>& arguments,

@@ -7,6 +7,7 @@
 
 #include "checkpoint.hpp"
 #include "program.hpp"
+#include "run.hpp"
 
 using namespace stokes;
 
@@ -22,10 +23,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 // The files of a run that has ended: no other is there.
 std::map<std::string, std::string> files_of(const Workspace& here, const std::string& output) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::directory_iterator(here.path() / output))
-    files[entry.path().filename().string()] = content_of(entry.path());
-  return files;
+  return everything_in(here.path() / output);
 }
 
 // Every state between two steps, and the final record, of a run that may begin in one of them.
@@ -62,18 +60,7 @@ void check_every_restart(const std::vector<std::string>& settings, const std::st
   Case written = c;
   written.output = (here.path() / "out").string();
   const Suspension bodies = read_suspension(c);
-  SimulationOptions options;
-  options.stepper.flow = {c.flow, c.rate};
-  options.stepper.points_per_body = c.points_per_body;
-  options.stepper.contact = c.contact;
-  options.stepper.coupling = c.coupling;
-  options.stepper.lcp_matrix = c.lcp_matrix;
-  options.stepper.refine = c.refine;
-  options.stepper.separation = separation_length(c, bodies);
-  options.time_step = c.time_step;
-  options.end_time = c.end_time;
-  options.reverse_at = c.reverse_at;
-  options.adaptive = c.adaptive;
+  const SimulationOptions options = options_of(c, bodies);
   const Course whole = course(bodies, options, {});
   REQUIRE(whole.states.size() > 10);
   REQUIRE(whole.contacts > 0);
@@ -217,6 +204,28 @@ TEST_CASE("a run between walls that is killed ends with the bytes of an undistur
   check_interrupted(here, {"KILL", "TERM"}, 2, "checkpoint_every=1e-9");
   const std::vector<double> contacts = here.results().step_column("contacts");
   CHECK(*std::max_element(contacts.begin(), contacts.end() - 1) > 0.0);
+}
+
+TEST_CASE("a case of an experiment that is killed again and again ends with the bytes of an undisturbed one") {
+  const fs::path program = simulate_program().parent_path() / "fig6_injection";
+  const TemporaryFolder whole, parts;
+  const auto begin = std::chrono::steady_clock::now();
+  REQUIRE(run_program(program, {"case=quick"}, whole.path()).status == 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::mt19937_64 random(4);
+  int continued = 0;
+  for (int attempt = 0; attempt < 100 && continued < 2; ++attempt) {
+    const double part = 0.1 + 0.4 * static_cast<double>(random() >> 11) * 0x1p-53;
+    const ProgramRun run = run_program(program, {"case=quick", "checkpoint_every=1e-9"}, parts.path(),
+                                       concat("timeout --preserve-status -s KILL ", part * seconds, " "));
+    CAPTURE(run.errors);
+    CHECK((run.status == 137 || run.status == 0));
+    continued += contains(run.errors, "going on from step ");
+  }
+  CHECK(continued == 2);
+  CHECK(run_program(program, {"case=quick"}, parts.path()).status == 0);
+  CHECK(everything_in(parts.path()) == everything_in(whole.path()));
+  CHECK(everything_in(whole.path()).size() == 10);  // seven files in three folders
 }
 
 TEST_CASE("a run that is killed before its first checkpoint starts again") {

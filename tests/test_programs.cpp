@@ -29,7 +29,7 @@ TEST_CASE("--help of every program says how to use it and what it makes, and is 
   const TemporaryFolder elsewhere;
   int tried = 0;
   for (const std::string& name : programs()) {
-    const bool is_needed = name == "simulate" || name == "local_coupling";
+    const bool is_needed = name == "simulate" || name == "local_coupling" || name == "fig6_injection";
     CAPTURE(name);
     if (!is_needed && !fs::exists(folder / name)) continue;
     ++tried;
@@ -41,7 +41,7 @@ TEST_CASE("--help of every program says how to use it and what it makes, and is 
       CHECK(std::count(run.output.begin(), run.output.end(), '\n') >= 3);
     }
   }
-  CHECK(tried >= 2);
+  CHECK(tried >= 3);
   CHECK(fs::is_empty(elsewhere.path()));
 }
 
@@ -64,4 +64,16 @@ TEST_CASE("an experiment names its cases, and refuses others with the nearest on
   CHECK(wrong.status == 2);
   CHECK(contains(wrong.errors, "rate2_global"));
   CHECK(fs::is_empty(elsewhere.path()));
+}
+
+TEST_CASE("an experiment refuses a wrong interval of its checkpoints and writes nothing") {
+  const fs::path program = simulate_program().parent_path() / "fig6_injection";
+  for (const char* argument : {"checkpoint_every=often", "checkpoint_every=-1", "check_every=1"}) {
+    CAPTURE(argument);
+    const TemporaryFolder elsewhere;
+    const ProgramRun run = run_program(program, {"case=quick", argument}, elsewhere.path());
+    CHECK(run.status == 2);
+    CHECK(contains(run.errors, argument));
+    for (const auto& [name, content] : everything_in(elsewhere.path())) CHECK(content == "(not a file)");
+  }
 }

@@ -71,7 +71,8 @@ TEST_CASE("trajectory.csv and steps.csv begin with their columns and have the do
   const std::string steps = content_of(here.path() / "out/steps.csv");
   CHECK(trajectory.starts_with("step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque\n0,0,0,-2,0.5,0.25,"));
   CHECK(steps.starts_with(
-      "step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves\n0,0,0.1,"));
+      "step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,"
+      "smallest_multiplier,largest_multiplier\n0,0,0.1,"));
   CHECK(results.trajectory.numbers("step") == Numbers{0, 0, 1, 1, 2, 2, 3, 3});
   CHECK(results.trajectory.numbers("body") == Numbers{0, 1, 0, 1, 0, 1, 0, 1});
   CHECK(results.step_column("step") == Numbers{0, 1, 2, 3});
@@ -81,11 +82,12 @@ TEST_CASE("trajectory.csv and steps.csv begin with their columns and have the do
       const Numbers values = table.numbers(name);  // throws for a field that is not a number
       const bool known = name == "step" || name == "time" || name == "body" || name == "x" || name == "y" ||
                          name == "theta" || name == "min_gap";
+      const bool of_contacts = name.ends_with("_multiplier");  // there are none
       const std::size_t last_rows = table.has_column("body") ? 2 : 1;
       for (std::size_t row = 0; row < values.size(); ++row) {
         CAPTURE(name);
         CAPTURE(row);
-        CHECK(std::isnan(values[row]) == (!known && row + last_rows >= values.size()));
+        CHECK(std::isnan(values[row]) == (of_contacts || (!known && row + last_rows >= values.size())));
       }
     }
 }
@@ -128,6 +130,7 @@ TEST_CASE("the smallest gap, the contacts and their forces are those of the conf
   const Workspace here(case_text("shear", 32, 0.25, 8, "min_separation_length = .4\n"), two_discs);
   const Results results = run(here);
   const Numbers gaps = results.step_column("min_gap"), contacts = results.step_column("contacts");
+  const Numbers multiplier = results.step_column("smallest_multiplier");
   const Numbers x0 = results.body_column(0, "x"), y0 = results.body_column(0, "y");
   const Numbers x1 = results.body_column(1, "x"), y1 = results.body_column(1, "y");
   const Numbers fx0 = results.body_column(0, "fx"), fy0 = results.body_column(0, "fy");
@@ -142,6 +145,8 @@ TEST_CASE("the smallest gap, the contacts and their forces are those of the conf
     if (contact) CHECK(std::abs(gaps[k + 1] - 0.4) <= 0.4e-4);
     // Repulsive, along the line of centres at the start of the step, opposite.
     CHECK((std::hypot(fx0[k], fy0[k]) > 0.0) == contact);
+    CHECK(std::isnan(multiplier[k]) != contact);
+    if (contact) CHECK(std::abs(multiplier[k] - std::hypot(fx0[k], fy0[k])) <= 1e-14 * multiplier[k]);
     const Complex force(fx1[k], fy1[k]);
     CHECK(std::abs(dot(force, d) - std::abs(force) * std::abs(d)) <= 1e-12 * std::abs(force) * std::abs(d));
     CHECK(fx0[k] == -fx1[k]);
@@ -149,6 +154,21 @@ TEST_CASE("the smallest gap, the contacts and their forces are those of the conf
   }
   CHECK(touching > 2);
   CHECK(touching < static_cast<int>(gaps.size()) - 5);
+}
+
+TEST_CASE("the smallest and the largest multiplier are the forces at the ends of a row pressed together") {
+  const Workspace here(case_text("none", 32, 0.1, 0.3, "min_separation_length = .1\n"),
+                       "a,b,x,y,theta,force_x\n.5,.5,-1.1,0,0,3\n.5,.5,0,0,0,-2\n.5,.5,1.1,0,0,-1\n");
+  const Results results = run(here);
+  const Numbers smallest = results.step_column("smallest_multiplier"), largest = results.step_column("largest_multiplier");
+  const Numbers first = results.body_column(0, "fx"), last = results.body_column(2, "fx");
+  for (std::size_t k = 0; k + 1 < smallest.size(); ++k) {
+    REQUIRE(results.step_column("contacts")[k] == 2.0);
+    CHECK(last[k] > 0.0);
+    CHECK(-first[k] > last[k]);
+    CHECK(std::abs(smallest[k] - last[k]) <= 1e-12 * largest[k]);
+    CHECK(std::abs(largest[k] + first[k]) <= 1e-12 * largest[k]);
+  }
 }
 
 TEST_CASE("exact counting takes round(end_time / time_step) steps and ends at end_time") {
