@@ -15,7 +15,7 @@ namespace {
 constexpr double wanted_spacing = 0.6, least_density = 1.5, largest_density = 60.0;
 
 // Of the mobility across a gap.
-constexpr double largest_mobility_error = 1.0;
+constexpr double largest_mobility_error = 0.1;
 
 // Adds a cluster where `body` faces a neighbour in direction n (laboratory frame), if its nodes are too sparse.
 void add_cluster(const Body& body, Complex n, double width, double fineness, Discretisation& nodes) {
