@@ -26,6 +26,8 @@ struct Gap {
 struct GapGradient {
   Complex centre_a, centre_b;
   double angle_a, angle_b;
+
+  bool operator==(const GapGradient&) const = default;
 };
 
 // The gap to a few units of round-off of |d| plus the bodies' size. Where several directions attain the

@@ -58,4 +58,12 @@ LcpResult solve_lcp(const Matrix& B, const Vector& b, LcpMethod method = LcpMeth
 // non-finite entry or their sizes differ.
 double lcp_residual(const Matrix& B, const Vector& b, const Vector& z);
 
+// In units of sqrt(B_ll), which make it independent of those of single contacts, the largest multiplier over the
+// worst violation. A jam that rounding makes solvable needs the reciprocal of that rounding.
+inline double amplification(const Matrix& B, const Vector& b, const Vector& z) {
+  const Vector scale = B.diagonal().cwiseSqrt();
+  const double violation = -b.cwiseQuotient(scale).minCoeff();
+  return violation > 0.0 ? z.cwiseProduct(scale).maxCoeff() / violation : 0.0;
+}
+
 }  // namespace stokes

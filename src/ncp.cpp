@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_wrenches.hpp"
 #include "lcp.hpp"
 #include "text.hpp"
 
@@ -31,32 +32,8 @@ constexpr double largest_amplification = 1e6;  // a wedge that is as slim is a j
 using Identity = KnownContacts::Contact;
 Identity identity(const ContactConstraint& c) { return {c.a, c.b, c.region}; }
 
-bool same(const GapGradient& u, const GapGradient& v) {
-  return u.centre_a == v.centre_a && u.centre_b == v.centre_b && u.angle_a == v.angle_a && u.angle_b == v.angle_b;
-}
-
-// Contact force and torque on every body and on the container.
-struct ContactWrenches {
-  std::vector<Wrench> bodies;
-  Wrench container;
-
-  void add(const ContactConstraint& c, const GapGradient& force, double factor) {
-    Wrench &on_a = bodies[c.a], &on_b = c.b == container_index ? container : bodies[c.b];
-    on_a.force += factor * force.centre_a, on_a.torque += factor * force.angle_a;
-    on_b.force += factor * force.centre_b, on_b.torque += factor * force.angle_b;
-  }
-};
-
 std::string name(const ContactConstraint& c) {
   return concat(pair_name(c.a, c.b), " (constraint ", c.value, ", tolerance ", c.tolerance, ")");
-}
-
-// In units of sqrt(B_ll), which make it independent of those of single contacts, the largest multiplier over the
-// worst violation. A jam that rounding makes solvable needs the reciprocal of that rounding.
-double amplification(const Matrix& B, const Vector& b, const Vector& z) {
-  const Vector scale = B.diagonal().cwiseSqrt();
-  const double violation = -b.cwiseQuotient(scale).minCoeff();
-  return violation > 0.0 ? z.cwiseProduct(scale).maxCoeff() / violation : 0.0;
 }
 
 class Iteration {
@@ -150,7 +127,7 @@ class Iteration {
         for (const Candidate& k : candidates_)
           if (k.multiplier > 0.0) b[l] -= dt_ * k.multiplier * rate(candidates_[l].constraint, k.column.velocity);
       for (Candidate& c : candidates_)
-        if (c.column.velocity.empty() || !same(c.force, c.constraint.force)) find_column(c);
+        if (c.column.velocity.empty() || c.force != c.constraint.force) find_column(c);
     }
     if (const std::string problem = unphysical(options.check_mobility && !mobility_.response); !problem.empty()) {
       unresolved = true;
@@ -188,27 +165,8 @@ class Iteration {
   }
 
  private:
-  // Rate of a constraint's value, or of another with the given gradient, when the mobile bodies move with `velocity`.
   double rate(const ContactConstraint& c, const std::vector<RigidVelocity>& velocity) const {
-    return rate(c, c.gradient, velocity);
-  }
-  double rate(const ContactConstraint& c, const GapGradient& gradient, const std::vector<RigidVelocity>& velocity) const {
-    double sum = 0.0;
-    const auto add = [&](int body, Complex centre, double angle) {
-      if (body == container_index || start_[body].fixed) return;
-      sum += dot(centre, velocity[body].velocity);
-      sum += angle * velocity[body].omega;
-    };
-    add(c.a, gradient.centre_a, gradient.angle_a);
-    add(c.b, gradient.centre_b, gradient.angle_b);
-    return sum;
-  }
-
-  // What of the wrenches moves the fluid: not what the fixed bodies bear.
-  std::vector<Wrench> on_fluid(const ContactWrenches& wrenches) const {
-    std::vector<Wrench> result = wrenches.bodies;
-    for (int i : fixed_) result[i] = {};
-    return result;
+    return rate_of(start_, c, c.gradient, velocity);
   }
 
   void add_motion(const Response& response, double factor) {
@@ -254,7 +212,7 @@ class Iteration {
     c.force = c.constraint.force;
     ContactWrenches unit{std::vector<Wrench>(start_.size()), {}};
     unit.add(c.constraint, c.force, 1.0);
-    c.column = mobility_.column(on_fluid(unit));
+    c.column = mobility_.column(unit.on_all_but(fixed_));
   }
 
   // Rates of all values, or of others with gradients to choose, by all columns.
@@ -263,7 +221,7 @@ class Iteration {
     Matrix rates(m, m);
     for (Eigen::Index l = 0; l < m; ++l)
       for (Eigen::Index k = 0; k < m; ++k)
-        rates(l, k) = rate(candidates_[l].constraint, (candidates_[l].*gradient)(), candidates_[k].column.velocity);
+        rates(l, k) = rate_of(start_, candidates_[l].constraint, (candidates_[l].*gradient)(), candidates_[k].column.velocity);
     return rates;
   }
 
@@ -273,7 +231,7 @@ class Iteration {
     KnownContacts all{{}, Matrix(m, m), {}};
     std::vector<Eigen::Index> known;
     for (Candidate& c : candidates_) {
-      const bool changed = !same(c.force, c.constraint.force);
+      const bool changed = c.force != c.constraint.force;
       known.push_back(changed ? -1 : known_.find(identity(c.constraint)));
       if (known.back() < 0) find_column(c);
       all.contacts.push_back(identity(c.constraint));
@@ -368,7 +326,7 @@ class Iteration {
     }
     if (forced && mobility_.response) {
       balance_changes();
-      const Response answer = mobility_.response(on_fluid(wrenches_), expected_density());
+      const Response answer = mobility_.response(wrenches_.on_all_but(fixed_), expected_density());
       answers_.push_back(answer.density);
       for (Candidate& c : candidates_) c.answered.push_back(c.multiplier + c.committed);
       before_ = std::move(motion_.velocity);
@@ -376,7 +334,7 @@ class Iteration {
       add_motion(answer, 1.0);
     } else if (forced && balance_changes()) {
       motion_ = free_;
-      add_motion(mobility_.column(on_fluid(wrenches_)), 1.0);
+      add_motion(mobility_.column(wrenches_.on_all_but(fixed_)), 1.0);
     } else {
       motion_ = base_;
       for (const Candidate& c : candidates_)

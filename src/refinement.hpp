@@ -9,7 +9,9 @@
 //
 // Clusters do not help a slender body whose own equations N nodes do not resolve, which is an error in its mobility of
 // about 0.15 exp(-N atanh(b/a)). It does not matter beside most mobilities, but it does along a flank, where a gap g of
-// the curvature 1/R leaves (g/R)^1.5 / (3 sqrt(2) pi): there the body gets two or four times as many nodes.
+// the curvature 1/R leaves (g/R)^1.5 / (3 sqrt(2) pi): where the error is more than a tenth of that, the body gets two or
+// four times as many nodes. With larger errors the mobilities between several bodies pressed together are not symmetric,
+// and iterations for the contact forces converge slowly or not at all.
 #pragma once
 
 #include <vector>
