@@ -30,8 +30,8 @@ struct EllipsePoint {
 
 CompletionFlow::CompletionFlow(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length)
     : centre_(pose.centre), axis_(pose.axis()), A_(0.5 * (shape.a + shape.b)), B_(0.5 * (shape.a - shape.b)),
-      focus_(2.0 * std::sqrt(Complex(A_ * B_, 0.0))), log_unit_(std::log(log_length)), force_(std::conj(axis_) * wrench.force / (4.0 * pi)),
-      torque_(0.0, wrench.torque / (4.0 * pi * (A_ * A_ + B_ * B_))) {}
+      focus_(2.0 * std::sqrt(Complex(A_ * B_, 0.0))), log_unit_(std::log(log_length)),
+      force_(std::conj(axis_) * wrench.force / (4.0 * pi)), torque_(0.0, wrench.torque / (4.0 * pi * (A_ * A_ + B_ * B_))) {}
 
 // In the body frame:
 //   force F:  u = (1/4 pi) ( -ln|A w| F + F/2 + (conj(F)/2) (z/conj(s) - conj(m)) ),  m = (A^2+B^2)/(A w s)

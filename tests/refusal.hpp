@@ -7,12 +7,12 @@
 
 namespace stokes {
 
-// The message of the InputError that an action ends with, or "accepted".
-template <class Action>
+// The message of the error that an action ends with, or "accepted".
+template <class Error = InputError, class Action>
 std::string refusal(const Action& action) {
   try {
     action();
-  } catch (const InputError& error) {
+  } catch (const Error& error) {
     return error.what();
   }
   return "accepted";

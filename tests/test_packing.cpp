@@ -6,6 +6,7 @@
 #include "container_gap.hpp"
 #include "gap.hpp"
 #include "packing.hpp"
+#include "refusal.hpp"
 
 using namespace stokes;
 
@@ -27,16 +28,6 @@ double smallest_distance(const Suspension& bodies) {
     for (std::size_t j = 0; j < i; ++j) smallest = std::min(smallest, gap(bodies[i], bodies[j]).value);
   }
   return smallest;
-}
-
-template <class Error, class Action>
-std::string refusal(const Action& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
