@@ -186,20 +186,26 @@ bool DiscreteShape::has_series() const {
   return size() >= long_rows && std::holds_alternative<CircleEvaluation>(close_);
 }
 
-VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z, const std::vector<int>& nodes) {
-  VelocityRows rows = CircleEvaluation(shape.shape.a, shape.size(), shape.side()).velocity_rows(z, nodes);
-  const VelocityRows plain = trapezoid_rows(shape.curve, shape.side(), z, nodes);
+VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z, const std::vector<int>& some) const {
+  return std::get<CircleEvaluation>(close_).velocity_rows(z, some);
+}
+
+namespace {
+
+VelocityRows difference(VelocityRows rows, const VelocityRows& plain) {
   rows.direct -= plain.direct;
   rows.conjugate -= plain.conjugate;
   return rows;
 }
 
+}  // namespace
+
 VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z) {
-  VelocityRows rows = shape.close_rows(z);
-  const VelocityRows plain = trapezoid_rows(shape.curve, shape.side(), z);
-  rows.direct -= plain.direct;
-  rows.conjugate -= plain.conjugate;
-  return rows;
+  return difference(shape.close_rows(z), trapezoid_rows(shape.curve, shape.side(), z));
+}
+
+VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z, const std::vector<int>& nodes) {
+  return difference(shape.close_rows(z, nodes), trapezoid_rows(shape.curve, shape.side(), z, nodes));
 }
 
 // The series of the old nodes, summed at the new ones by Horner's rule in e^{i s}.

@@ -77,6 +77,8 @@ class DiscreteShape {
 
   // Rows of the double layer's velocity at points z (body frame) in the fluid, at any distance.
   VelocityRows close_rows(const std::vector<Complex>& z) const;
+  // The same for some of the nodes of a circle that has_series().
+  VelocityRows close_rows(const std::vector<Complex>& z, const std::vector<int>& nodes) const;
   // A circle whose rows are long: better a CircleFlow for each density.
   bool has_series() const;
 
