@@ -2,6 +2,7 @@
 //
 //   program case=NAME [results=DIR]   computes one case, writes DIR/<experiment>/<case>.csv;
 //           [checkpoint_every=SECONDS]  for cases that go on after an interruption (case_run.hpp)
+//           [threads=K]               1 if not given: `make -j` runs cases side by side
 //   program collect   [results=DIR]   combines the cases that are there into tables and summary.csv
 //   program list                      prints the names of the cases
 //   program --help                    says what it makes
@@ -102,25 +103,34 @@ inline std::string help_of(const Experiment& experiment) {
                             "collect      combines the cases that are there into tables in DIR/", name, "\n",
                             "list         prints the names of the cases\n",
                             "results=DIR  folder of all results, `results` if not given\n",
-                            "checkpoint_every=SECONDS  of long cases, 60 if not given\n\n",
+                            "checkpoint_every=SECONDS  of long cases, 60 if not given\n",
+                            "threads=K    that the case uses, 1 if not given; results are the same for any number\n\n",
                             "`make ", name, "` does all of it. The cases:\n");
   for (const std::string& each : experiment.cases) text += concat("  ", each, "\n");
   return text;
 }
 
-// main() of an experiment: exit status 0, 2 for wrong arguments, 3 for a numerical failure. A case runs on
-// one thread, so that cases can run side by side.
+inline int parse_threads(const std::string& argument) {
+  const auto count = parse_integer(argument.substr(argument.find('=') + 1));
+  if (!count || *count < 1 || *count > 1024) throw InputError(concat(quote(argument), " must be a whole number from 1 to 1024"));
+  return static_cast<int>(*count);
+}
+
+// main() of an experiment: exit status 0, 2 for wrong arguments, 3 for a numerical failure.
 inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
   const std::string usage = usage_of(experiment.name);
   try {
     std::string task, root = "results";
     std::vector<std::string> settings;
+    int threads = 1;
     for (int i = 1; i < argc; ++i) {
       const std::string argument = argv[i];
       if (argument.starts_with("results="))
         root = argument.substr(8);
       else if (argument.starts_with("checkpoint_every="))
         settings.push_back(argument);
+      else if (argument.starts_with("threads="))
+        threads = parse_threads(argument);
       else if (task.empty())
         task = argument;
       else
@@ -142,7 +152,7 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
     const std::string name = task.substr(5);
     if (std::find(experiment.cases.begin(), experiment.cases.end(), name) == experiment.cases.end())
       throw InputError(concat("no case ", quote(name), "; did you mean ", nearest_name(name, experiment.cases), "?"));
-    set_thread_count(1);
+    set_thread_count(threads);
     experiment.run(name, Results(root, experiment.name, settings));
     return 0;
   } catch (const Interruption& end) {

@@ -9,16 +9,35 @@ namespace stokes {
 
 namespace {
 
-// Columns are the images of the unit vectors under `map`.
-template <class Map>
-ComplexMatrix matrix_of(int columns, const Map& map) {
-  ComplexMatrix m;
-  for (int k = 0; k < columns; ++k) {
-    const ComplexVector column = map(ComplexVector::Unit(columns, k));
-    if (k == 0) m.resize(column.size(), columns);
-    m.col(k) = column;
+// Of a linear map that commutes with turning the nodes, from the image of the first unit vector: the image of each
+// next one is turned by as many more nodes. All maps here take real values to real ones.
+Matrix matrix_of_map(const ComplexVector& first, int columns) {
+  const Eigen::Index rows = first.size(), step = rows / columns;
+  Matrix m(rows, columns);
+  for (Eigen::Index k = 0; k < columns; ++k) {
+    m.col(k).tail(rows - k * step) = first.real().head(rows - k * step);
+    m.col(k).head(k * step) = first.real().tail(k * step);
   }
   return m;
+}
+
+// [Re M^T; Im M^T].
+Matrix stacked_transpose(const ComplexMatrix& M) {
+  Matrix stacked(2 * M.cols(), M.rows());
+  stacked << M.real().transpose(), M.imag().transpose();
+  return stacked;
+}
+
+// M^T W by one product of real matrices, with which Eigen is faster than with complex ones.
+ComplexMatrix product(const Matrix& stacked, const ComplexMatrix& W) {
+  const Eigen::Index rows = stacked.rows() / 2, columns = W.cols();
+  Matrix parts(W.rows(), 2 * columns);
+  parts << W.real(), W.imag();
+  const Matrix p = stacked * parts;
+  ComplexMatrix result(rows, columns);
+  result.real() = p.topLeftCorner(rows, columns) - p.bottomRightCorner(rows, columns);
+  result.imag() = p.topRightCorner(rows, columns) + p.bottomLeftCorner(rows, columns);
+  return result;
 }
 
 // Boundary values of C[tau] on the fluid side, by the compensated trapezoid rule
@@ -26,12 +45,13 @@ ComplexMatrix matrix_of(int columns, const Map& map) {
 ComplexMatrix boundary_values(const Curve& curve, const ComplexVector& step, Side side) {
   const int n = curve.size();
   const Complex factor = 1.0 / (2.0 * pi * imaginary_unit);
-  ComplexMatrix C = matrix_of(n, fourier_derivative) * (factor * (2.0 * pi / n));
+  const ComplexVector weighted = factor * step;
+  ComplexMatrix C = (factor * (2.0 * pi / n)) * matrix_of_map(fourier_derivative(ComplexVector::Unit(n, 0)), n);
   for (int j = 0; j < n; ++j) {
     Complex row_sum = 0.0;
     for (int k = 0; k < n; ++k) {
       if (k == j) continue;
-      const Complex c = factor * step[k] / (curve.position[k] - curve.position[j]);
+      const Complex c = quotient(weighted[k], curve.position[k] - curve.position[j]);
       C(j, k) += c;
       row_sum += c;
     }
@@ -87,19 +107,19 @@ CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
     : side_(side), fine_(refined(curve, upsampling)) {
   const int n = curve.size(), fine = fine_.size();
   step_ = fine_.derivative * (2.0 * pi / fine);
-  C_ = boundary_values(fine_, step_, side);
-  refine_ = matrix_of(n, [&](const ComplexVector& eta) { return fourier_upsample(eta, fine); }).real();
-  slope_ = matrix_of(n, [&](const ComplexVector& eta) -> ComplexVector {
-    return fourier_upsample(fourier_derivative(eta), fine).cwiseQuotient(fine_.derivative);
-  });
+  limits_ = stacked_transpose(boundary_values(fine_, step_, side));
+  const ComplexVector unit = ComplexVector::Unit(n, 0);
+  refine_ = matrix_of_map(fourier_upsample(unit, fine), n).transpose();
+  const Matrix derivative = matrix_of_map(fourier_upsample(fourier_derivative(unit), fine), n);
+  slope_ = stacked_transpose(fine_.derivative.cwiseInverse().asDiagonal() * derivative);
 }
 
-// Row of C[tau](z) on the fine values of tau. From six fine spacings on the trapezoid rule itself is exact to
-// round-off, exp(-12 pi); nearer, the boundary values are continued.
-ComplexMatrix CloseEvaluation::cauchy_rows(const std::vector<Complex>& z) const {
+// Columns of C[tau](z), one a target, on the fine values of tau. From six fine spacings on the trapezoid rule itself is
+// exact to round-off, exp(-12 pi); nearer, the boundary values are continued.
+ComplexMatrix CloseEvaluation::cauchy_columns(const std::vector<Complex>& z) const {
   const Eigen::Index n = fine_.size(), targets = static_cast<Eigen::Index>(z.size());
   const double limit = 6.0 * fine_.max_spacing();
-  ComplexMatrix rows(targets, n), weight(n, targets);
+  ComplexMatrix columns(n, targets), weight(n, targets);
   std::vector<Eigen::Index> close;
   for (Eigen::Index i = 0; i < targets; ++i) {
     double smallest = limit * limit;
@@ -109,21 +129,21 @@ ComplexMatrix CloseEvaluation::cauchy_rows(const std::vector<Complex>& z) const 
       close.push_back(i);
     } else {
       for (Eigen::Index k = 0; k < n; ++k)
-        rows(i, k) = quotient(step_[k], 2.0 * pi * imaginary_unit * (fine_.position[k] - z[i]));
+        columns(k, i) = quotient(step_[k], 2.0 * pi * imaginary_unit * (fine_.position[k] - z[i]));
     }
   }
-  const ComplexMatrix continued = weight.leftCols(static_cast<Eigen::Index>(close.size())).transpose() * C_;
-  for (std::size_t r = 0; r < close.size(); ++r) rows.row(close[r]) = continued.row(static_cast<Eigen::Index>(r));
-  return rows;
+  const ComplexMatrix continued = product(limits_, weight.leftCols(static_cast<Eigen::Index>(close.size())));
+  for (std::size_t r = 0; r < close.size(); ++r) columns.col(close[r]) = continued.col(static_cast<Eigen::Index>(r));
+  return columns;
 }
 
 VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const {
   const double s = side_ == Side::interior ? 1.0 : -1.0;
-  ComplexMatrix rows = cauchy_rows(z);
-  const Matrix direct = -s * (rows.real() * refine_);
-  for (Eigen::Index k = 0; k < rows.cols(); ++k)
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) rows(i, k) *= std::conj(z[i] - fine_.position[k]);
-  return {direct, (0.5 * s) * (rows * slope_).conjugate()};
+  ComplexMatrix columns = cauchy_columns(z);
+  const Matrix direct = -s * (refine_ * columns.real());
+  for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    for (Eigen::Index k = 0; k < columns.rows(); ++k) columns(k, i) *= std::conj(z[i] - fine_.position[k]);
+  return {direct.transpose(), (0.5 * s) * product(slope_, columns).adjoint()};
 }
 
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {

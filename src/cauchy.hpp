@@ -37,14 +37,15 @@ class CloseEvaluation {
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 
  private:
-  ComplexMatrix cauchy_rows(const std::vector<Complex>& z) const;
+  ComplexMatrix cauchy_columns(const std::vector<Complex>& z) const;
 
   Side side_;
   Curve fine_;
   ComplexVector step_;   // zeta' 2 pi / N on the fine nodes
-  ComplexMatrix C_;      // boundary values of C[tau] from the fine values of tau
+  // Transposed, complex ones as their real parts above their imaginary ones:
+  Matrix limits_;        // boundary values of C[tau] from the fine values of tau
   Matrix refine_;        // fine values of eta from eta
-  ComplexMatrix slope_;  // fine values of eta_alpha/zeta_alpha from eta
+  Matrix slope_;         // fine values of eta_alpha/zeta_alpha from eta
 };
 
 // Rows of the plain trapezoid rule at the same targets: what the fast sums compute.

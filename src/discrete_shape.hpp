@@ -62,11 +62,14 @@ class DiscreteShape {
   // (U, omega) = G^-1 B_w^T eta.
   RigidVelocity rigid_part(const Complex* density) const;
 
-  // Solution of the boundary's own block for right-hand sides in the columns of b, 2N reals each.
+  // Solution of the boundary's own block for right-hand sides in the columns of b, 2N reals each, in their precision.
   template <class Rhs>
-  Matrix solve_own(const Rhs& b) const {
-    if (inverse_.size() > 0) return inverse_ * b;
-    return motions_ * (core_ * (motions_.transpose() * b)) - 2.0 * b;
+  auto solve_own(const Rhs& b) const {
+    using Scalar = typename Rhs::Scalar;
+    using Solution = Eigen::Matrix<Scalar, Eigen::Dynamic, Rhs::ColsAtCompileTime>;
+    if (inverse_.size() > 0) return Solution(inverse_.template cast<Scalar>() * b);
+    const auto motions = motions_.template cast<Scalar>();
+    return Solution(motions * (core_.template cast<Scalar>() * (motions.transpose() * b)) - Scalar(2.0) * b);
   }
 
   // Force and torque of a fixed boundary on the fluid, body frame.

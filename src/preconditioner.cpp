@@ -48,15 +48,13 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
   const bool in_part = j.shape->is_circle() && j.shape->shape.a > large_circle * i.shape->shape.circumradius();
   p.part = in_part ? nodes_beside(i, j) : all_nodes(j);
   const std::vector<int> own = all_nodes(i);
-  const Matrix X = i.shape->solve_own(block(p.i, own, p.j, p.part));
-  Matrix Y = block(p.j, p.part, p.i, own);
+  p.X = i.shape->solve_own(Eigen::MatrixXf(block(p.i, own, p.j, p.part).cast<float>()));
+  p.Y = block(p.j, p.part, p.i, own).cast<float>();
   if (in_part)
-    Y *= -2.0;  // the inverse of a circle's block but for a few smooth modes
+    p.Y *= -2.0f;  // the inverse of a circle's block but for a few smooth modes
   else
-    Y = j.shape->solve_own(Y);
-  p.X = X.cast<float>();
-  p.Y = Y.cast<float>();
-  p.inverse = (Matrix::Identity(X.rows(), X.rows()) - X * Y).inverse().cast<float>();
+    p.Y = j.shape->solve_own(p.Y);
+  p.inverse = (Eigen::MatrixXf::Identity(p.X.rows(), p.X.rows()) - p.X * p.Y).inverse();
   return p;
 }
 
