@@ -7,9 +7,8 @@ namespace stokes {
 
 namespace {
 
-constexpr double least_change = 0.02;     // of the multipliers
-constexpr double least_curvature = 0.01;  // cosine between s and what the matrix misses
-constexpr double damping = 1e-3;          // of combinations
+constexpr double least_change = 0.02;  // of the multipliers
+constexpr double damping = 1e-3;       // of combinations
 
 }  // namespace
 
@@ -19,12 +18,10 @@ Eigen::Index KnownContacts::find(const Contact& contact) const {
 }
 
 void learn(Matrix& rates, const Vector& s, const Vector& y, const Vector& present) {
-  const Vector scale = rates.diagonal().cwiseSqrt(), missed = y - rates * s;
-  const double change = s.cwiseProduct(scale).norm(), curvature = missed.dot(s);
-  if (change <= least_change * present.cwiseProduct(scale).norm() ||
-      std::abs(curvature) <= least_curvature * change * missed.cwiseQuotient(scale).norm())
-    return;
-  rates += missed * (missed / curvature).transpose();
+  const Vector scale = rates.diagonal().cwiseSqrt(), scaled = scale.cwiseProduct(s);
+  if (scaled.norm() <= least_change * present.cwiseProduct(scale).norm()) return;
+  const Vector missed = y - rates * s, w = scale.cwiseProduct(scaled) / scaled.squaredNorm();
+  rates += missed * w.transpose() + w * missed.transpose() - missed.dot(s) * w * w.transpose();
 }
 
 Vector nearest_combination(const Matrix& known, const Vector& wanted, const Vector& scale) {

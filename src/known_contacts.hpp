@@ -20,9 +20,9 @@ struct KnownContacts {
   Eigen::Index find(const Contact& contact) const;  // its row, or -1
 };
 
-// Changes the symmetric matrix such that it maps s to y, by an update of rank one (SR1: on a linear map it keeps what
-// it learnt before). Nothing where s is a small part of `present`, whose errors y then shows, or where the update would
-// be much larger than what it mends. All of the same length; a positive diagonal gives the scales.
+// Changes the symmetric matrix such that it maps s to y: of all symmetric changes that do, the smallest (Powell's update),
+// entries in units of their diagonal ones. Nothing where s is a small part of `present`, whose errors y then shows.
+// All of the same length; the diagonal is positive.
 void learn(Matrix& rates, const Vector& s, const Vector& y, const Vector& present);
 
 // Coefficients of the combination of the columns of `known` that comes nearest to `wanted`, in units of 1 / scale;

@@ -262,14 +262,16 @@ class Iteration {
   void learn_from_motion() {
     if (!mobility_.learns || before_.empty()) return;
     const auto m = static_cast<Eigen::Index>(known_.contacts.size());
-    Vector change(m), changed(m), present(m);
+    Vector change(m), changed(m), present(m), total(m);
     for (Eigen::Index l = 0; l < m; ++l) {
       const Candidate& c = *place_of(known_.contacts[l]);  // whose force moved something, so it is there
       change[l] = c.change;
       present[l] = c.multiplier;
       changed[l] = rate(c.constraint, motion_.velocity) - rate(c.constraint, before_);
+      total[l] = contact_rate(c.constraint);
     }
     learn(known_.rates, change, changed, present);
+    learn(known_.rates, present, total, present);
     before_.clear();
   }
 

@@ -5,7 +5,8 @@
 // where M' is M or an approximation of it and r_l = dt grad_l . M' (present contact forces). With M' = M the
 // fluid is linear, so that once M f_k is known an iteration costs no Stokes solve. Otherwise every iterate is moved
 // with M, and M' may learn from it: for the change s of the multipliers and the change y it made in the rates of the
-// constraints, a symmetric update of rank one makes M' s = y (SR1), and what it has learnt goes from step to step.
+// constraints, and then for all multipliers and what they do, the smallest symmetric change is made after which
+// M' s = y. What it has learnt goes from step to step.
 //
 // Fixed bodies have no mobility: they stay where they are, and the forces on them and on the container do
 // nothing to the fluid. They are reactions, only reported. Between obstacles a body may be jammed: then no forces

@@ -307,6 +307,20 @@ TEST_CASE("the smallest gap of two discs that pass in shear converges to the exa
   }
 }
 
+TEST_CASE("interference volumes part bodies that are in contact from the first step on") {
+  StepperOptions options;
+  options.contact = ContactModel::stiv;
+  options.separation = 0.05;
+  options.stokes.summation = Summation::fmm;  // which refuses what is not finite
+  Stepper stepper({body(1.0, 0.3, {-1.02, 0.1}, 0.1, 10.0), body(1.0, 0.3, {0.32, 0.0}, 0.5 * pi, -10.0)}, options);
+  for (int step = 0; step < 3; ++step) {
+    const StepOutcome outcome = stepper.attempt(0.1, 1.0, {});
+    REQUIRE_MESSAGE(outcome.accepted, outcome.failure);
+    CHECK(outcome.ncp_iterations >= 2);  // each with answers to forces of its own
+    CHECK(outcome.contacts.size() == 1);
+  }
+}
+
 TEST_CASE("every step of dense random drops keeps the separation with balanced repulsive contacts") {
   const OneThread alone;
   std::mt19937_64 generator(20240611);
