@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "on_results.hpp"
 #include "report_inputs.hpp"
 
 namespace {
@@ -187,22 +188,7 @@ void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
 constexpr const char* usage =
     "usage: report [results=DIR] [reference=DIR] [document=DIR] [errata=FILE] [missing=fail|allow]";
 
-int run(int argc, char** argv) {
-  std::map<std::string, std::string> options = {{"results", "results"},
-                                                {"reference", "reference_data"},
-                                                {"document", "paper"},
-                                                {"errata", "paper/ERRATA.md"},
-                                                {"missing", "fail"}};
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const std::size_t equals = argument.find('=');
-    const auto option = options.find(argument.substr(0, equals));
-    if (equals == std::string::npos || option == options.end())
-      throw InputError(concat("unknown argument ", quote(argument), "; ", usage));
-    option->second = argument.substr(equals + 1);
-  }
-  if (options["missing"] != "fail" && options["missing"] != "allow")
-    throw InputError(concat("missing = fail or allow, not ", quote(options["missing"])));
+int run(Arguments& options) {
   if (!fs::is_directory(options["results"])) throw InputError(concat("no results in ", quote(options["results"])));
 
   Inputs inputs(options["results"], options["reference"]);
@@ -234,16 +220,10 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
-    std::printf("%s\n\nWrites the numbers, tables and lists that the report asks for to DIR/report/*.tex. Exit status 1,\n"
-                "and nothing is written, if one of them is missing, unless missing=allow.\n",
-                usage);
-    return 0;
-  }
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "report: %s\n", error.what());
-    return 2;
-  }
+  const char* help =
+      "Writes the numbers, tables and lists that the report asks for to DIR/report/*.tex. Exit status 1,\n"
+      "and nothing is written, if one of them is missing, unless missing=allow.\n";
+  return run_on_results("report", usage, help,
+                        {{"results", "results"}, {"reference", "reference_data"}, {"document", "paper"}, {"errata", "paper/ERRATA.md"}},
+                        argc, argv, run);
 }

@@ -21,6 +21,7 @@
 
 #include "base.hpp"
 #include "csv.hpp"
+#include "on_results.hpp"
 
 namespace {
 
@@ -117,19 +118,7 @@ void print(const std::vector<Verdict>& verdicts) {
 
 constexpr const char* usage = "usage: verify [results=DIR] [reference=DIR] [missing=fail|allow]";
 
-int run(int argc, char** argv) {
-  std::map<std::string, std::string> options = {{"results", "results"}, {"reference", "reference_data"}, {"missing", "fail"}};
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const std::size_t equals = argument.find('=');
-    const auto option = options.find(argument.substr(0, equals));
-    if (equals == std::string::npos || option == options.end())
-      throw InputError(concat("unknown argument ", quote(argument), "; ", usage));
-    option->second = argument.substr(equals + 1);
-  }
-  if (options["missing"] != "fail" && options["missing"] != "allow")
-    throw InputError(concat("missing = fail or allow, not ", quote(options["missing"])));
-
+int run(Arguments& options) {
   const std::vector<Verdict> verdicts = judge_all(options["reference"], options["results"]);
   print(verdicts);
   std::map<std::string, int> count;
@@ -153,16 +142,10 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 2 && (argv[1] == std::string("--help") || argv[1] == std::string("-h"))) {
-    std::printf("%s\n\nCompares every number of DIR with the reference values, prints the verdict and writes it to\n"
-                "DIR/verdict.csv. Exit status 1 if a number fails or, unless missing=allow, is missing.\n",
-                usage);
-    return 0;
-  }
-  try {
-    return run(argc, argv);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "verify: %s\n", error.what());
-    return 2;
-  }
+  const char* help =
+      "Compares every number of DIR with the reference values, prints the verdict and writes it to\n"
+      "DIR/verdict.csv. Exit status 1 if a number fails or, unless missing=allow, is missing.\n";
+  return run_on_results("verify", usage, help,
+                        {{"results", "results"}, {"reference", "reference_data"}},
+                        argc, argv, run);
 }

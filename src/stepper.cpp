@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "cluster.hpp"
 #include "completion.hpp"
@@ -215,11 +216,11 @@ NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& n
   at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
   configuration(driving);
   if (memory_.coarsened) {
-    const StepperMemory finer = memory_;
-    forget_contacts();
+    const KnownContacts known = std::exchange(memory_.known, {});
+    const std::vector<StepperMemory::Density> answers = std::exchange(memory_.answers, {});
     const NcpResult result = resolve(*now_, dt, at_first, LcpMatrix::near);
     if (result.solved) return result;
-    memory_.known = finer.known, memory_.answers = finer.answers;
+    memory_.known = known, memory_.answers = answers;
     refine(result, driving);
   }
   for (;;) {
