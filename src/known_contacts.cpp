@@ -7,8 +7,8 @@ namespace stokes {
 
 namespace {
 
-constexpr double least_change = 0.02;  // of the multipliers
-constexpr double damping = 1e-3;       // of combinations
+constexpr double least_change = 0.005;  // of the multipliers
+constexpr double damping = 1e-3;        // of combinations
 
 }  // namespace
 
