@@ -18,6 +18,7 @@ Eigen::Index KnownContacts::find(const Contact& contact) const {
 }
 
 void learn(Matrix& rates, const Vector& s, const Vector& y, const Vector& present) {
+  if (!(rates.diagonal().minCoeff() > 0.0)) return;
   const Vector scale = rates.diagonal().cwiseSqrt(), scaled = scale.cwiseProduct(s);
   if (scaled.norm() <= least_change * present.cwiseProduct(scale).norm()) return;
   const Vector missed = y - rates * s, w = scale.cwiseProduct(scaled) / scaled.squaredNorm();

@@ -21,8 +21,8 @@ struct KnownContacts {
 };
 
 // Changes the symmetric matrix such that it maps s to y: of all symmetric changes that do, the smallest (Powell's update),
-// entries in units of their diagonal ones. Nothing where s is a small part of `present`, whose errors y then shows.
-// All of the same length; the diagonal is positive.
+// entries in units of their diagonal ones. Nothing where s is a small part of `present`, whose errors y then shows, or
+// where the diagonal is not positive. All of the same length.
 void learn(Matrix& rates, const Vector& s, const Vector& y, const Vector& present);
 
 // Coefficients of the combination of the columns of `known` that comes nearest to `wanted`, in units of 1 / scale;

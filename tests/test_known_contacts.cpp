@@ -44,13 +44,18 @@ TEST_CASE("the matrix learns also where what it misses is orthogonal to the forc
   CHECK(std::abs(change.cwiseProduct(other).sum()) < 1e-12);
 }
 
-TEST_CASE("changes as small as the errors of answers teach nothing") {
+TEST_CASE("changes as small as the errors of answers teach nothing, nor does a matrix learn that is no mobility") {
   const Matrix start = Matrix::Identity(4, 4);
   Matrix learnt = start;
   learn(learnt, 0.002 * random_matrix(4, 1, 5), random_matrix(4, 1, 6), Vector::Ones(4));
   CHECK(learnt == start);
   learn(learnt, Vector::Ones(4), Vector::Ones(4), Vector::Ones(4));  // nothing missed
   CHECK(learnt == start);
+  Matrix negative = start;
+  negative(2, 2) = -1.0;
+  learnt = negative;
+  learn(learnt, Vector::Ones(4), 2.0 * Vector::Ones(4), Vector::Ones(4));
+  CHECK(learnt == negative);
 }
 
 TEST_CASE("a combination of known answers: exact where there is one, nearest in the given scale where there is none") {
