@@ -4,11 +4,15 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "base.hpp"
 #include "text.hpp"
 
 namespace stokes {
+
+// Of the verdict, in the order in which they are counted.
+inline const std::vector<std::string> verdict_statuses = {"PASS", "KNOWN", "FAIL", "MISSING", "NOT RUN"};
 
 using Arguments = std::map<std::string, std::string>;
 

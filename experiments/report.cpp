@@ -38,20 +38,21 @@ std::string values(Inputs& inputs, const std::string& document) {
 
 // For each experiment: rows of the verdict by status, published values apart from exact ones and earlier results.
 std::string verdict_table(Inputs& inputs) {
-  const std::vector<std::string> statuses = {"PASS", "KNOWN", "FAIL", "MISSING"};
+  const auto& statuses = verdict_statuses;
+  const auto columns = statuses.size();
   std::map<std::string, std::vector<int>> counts;
-  std::vector<int> total(8);
+  std::vector<int> total(2 * columns);
   const Table* verdict = inputs.table("verdict");
   if (!verdict) return row_of({missing_mark});
   for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
     const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
-    const auto status = std::find(statuses.begin(), statuses.end(), text("verdict")) - statuses.begin();
-    if (status == 4) throw InputError(concat(verdict->where(row), ": unknown verdict"));
+    const auto status = static_cast<std::size_t>(std::find(statuses.begin(), statuses.end(), text("verdict")) - statuses.begin());
+    if (status == columns) throw InputError(concat(verdict->where(row), ": unknown verdict"));
     if (text("verdict") == "MISSING")
       inputs.problem(concat("no result ", text("experiment"), "/", text("case"), " ", text("quantity")));
     std::vector<int>& count = counts[text("experiment")];
-    count.resize(8);
-    const auto column = status + (text("source").starts_with("paper_") ? 0 : 4);
+    count.resize(2 * columns);
+    const auto column = status + (text("source").starts_with("paper_") ? 0 : columns);
     ++count[column], ++total[column];
   }
   std::string table;
@@ -76,7 +77,7 @@ std::string verdict_rows(Inputs& inputs, const std::string& status) {
     if (text("verdict") != status) continue;
     const std::string got = tex_number(verdict->number(row, verdict->column("got")), "5g");
     const std::string what = concat("\\texttt{", tex_text(concat(text("case"), " ", text("quantity"))), "}: ");
-    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(trim(text("note").substr(6)))
+    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(trim(text("note").substr(text("note").find("KNOWN:") + 6)))
                                                     : concat(what, got, ", expected ", tex_text(text("expected")))}];
   }
   std::string table;

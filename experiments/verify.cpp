@@ -134,8 +134,9 @@ int run(Arguments& options) {
   for (const Verdict& v : verdicts)
     if (v.status == "KNOWN") ++known[v.experiment + v.note.substr(v.note.find("KNOWN:") + 5)];
   for (const auto& [note, rows] : known) std::printf("KNOWN, %d rows, %s\n", rows, note.c_str());
-  std::printf("verdict: %d PASS, %d KNOWN, %d FAIL, %d MISSING, %d NOT RUN\n", count["PASS"], count["KNOWN"], count["FAIL"],
-              count["MISSING"], count["NOT RUN"]);
+  std::string line = "verdict:";
+  for (const std::string& status : verdict_statuses) line += concat(line.back() == ':' ? " " : ", ", count[status], " ", status);
+  std::printf("%s\n", line.c_str());
   return count["FAIL"] > 0 || (count["MISSING"] > 0 && options["missing"] == "fail") ? 1 : 0;
 }
 
