@@ -4,7 +4,7 @@ width = 17; height = 6.2
 load "paper/figures/style.gp"
 columns = 3.0
 set xrange [0:2]
-set yrange [0.95:1.7]
+set yrange [0.95:1.8]
 set xtics 0.5
 set ytics 0.1
 set xlabel "revolutions of the outer cylinder" offset 0,0.5
