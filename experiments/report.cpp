@@ -77,7 +77,7 @@ std::string verdict_rows(Inputs& inputs, const std::string& status) {
     if (text("verdict") != status) continue;
     const std::string got = tex_number(verdict->number(row, verdict->column("got")), "5g");
     const std::string what = concat("\\texttt{", tex_text(concat(text("case"), " ", text("quantity"))), "}: ");
-    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(trim(text("note").substr(text("note").find("KNOWN:") + 6)))
+    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(known_reason(text("note")))
                                                     : concat(what, got, ", expected ", tex_text(text("expected")))}];
   }
   std::string table;

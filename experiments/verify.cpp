@@ -132,7 +132,7 @@ int run(Arguments& options) {
   write_file_atomically(fs::path(options["results"]) / "verdict.csv", csv);
   std::map<std::string, int> known;
   for (const Verdict& v : verdicts)
-    if (v.status == "KNOWN") ++known[v.experiment + v.note.substr(v.note.find("KNOWN:") + 5)];
+    if (v.status == "KNOWN") ++known[concat(v.experiment, ": ", known_reason(v.note))];
   for (const auto& [note, rows] : known) std::printf("KNOWN, %d rows, %s\n", rows, note.c_str());
   std::string line = "verdict:";
   for (const std::string& status : verdict_statuses) line += concat(line.back() == ':' ? " " : ", ", count[status], " ", status);

@@ -146,7 +146,7 @@ Response Stepper::respond_to_contact(Configuration& now, const std::vector<Wrenc
   const auto ends = ends_of(wrenches);
   const auto same_ends = [&ends](const auto& answer) { return ends_of(answer.first) == ends; };
   if (const auto latest = std::find_if(now.answers.rbegin(), now.answers.rend(), same_ends); latest != now.answers.rend())
-    return respond(now, wrenches, ComplexVector(latest->second.density));
+    return respond(now, wrenches, latest->second.density);
   const auto past = memory_.contacts.find(ends);
   return respond(now, wrenches, past == memory_.contacts.end() ? ComplexVector() : extrapolated(past->second, now));
 }
