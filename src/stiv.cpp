@@ -13,7 +13,8 @@ namespace stokes {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-12;  // of the product of the circumradii, for a volume
+constexpr double relative_tolerance = 1e-4;    // of the separation, for the depth of one vertex
+constexpr double smallest_tolerance = 1e-12;   // of the product of the circumradii, for a volume
 constexpr int fewest_vertices = 8;
 
 std::vector<Complex> moved(const std::vector<Complex>& points, Complex factor, Complex shift) {
@@ -125,6 +126,8 @@ StivCollector::StivCollector(const Suspension& start, double separation, const S
     const int vertices = options.vertices * static_cast<int>(multiple);
     const auto polygon = offset_polygon(body.shape, vertices, 0.5 * separation);
     outline_.push_back({polygon, moved(polygon, body.pose.axis(), 0.0), vertex_lengths(polygon)});
+    const auto& lengths = outline_.back().arclength;
+    outline_.back().shortest = *std::min_element(lengths.begin(), lengths.end());
   }
 }
 
@@ -145,7 +148,9 @@ std::vector<ContactConstraint> StivCollector::collect_pair(int a, int b, const s
   RegionNames names(std::move(sets));
   names.add(hits_of_a, of_a), names.add(hits_of_b, of_b);
 
-  const double tolerance = relative_tolerance * start_[a].shape.circumradius() * start_[b].shape.circumradius();
+  const double tolerance = std::max(
+      smallest_tolerance * start_[a].shape.circumradius() * start_[b].shape.circumradius(),
+      relative_tolerance * separation_ * std::min(outline_[a].shortest, outline_[b].shortest));
   std::vector<ContactConstraint> regions = names.constraints(a, b, tolerance);
   const auto add_all = [&](const std::vector<VertexHit>& hits, bool entering_a) {
     const MovingPolygon &moving = entering_a ? first : second, &target = entering_a ? second : first;
@@ -177,7 +182,8 @@ std::vector<ContactConstraint> StivCollector::collect_wall(int a, const Pose& tr
   join_neighbours(hits, vertices, sets);
   RegionNames names(std::move(sets));
   names.add(hits, vertices);
-  const double tolerance = relative_tolerance * start_[a].shape.circumradius() * container.radius;
+  const double tolerance = std::max(smallest_tolerance * start_[a].shape.circumradius() * container.radius,
+                                    relative_tolerance * separation_ * outline_[a].shortest);
   std::vector<ContactConstraint> regions = names.constraints(a, container_index, tolerance);
   for (const WallHit& hit : hits)
     add(hit, true, outline_[a].arclength[hit.vertex], polygon.end[hit.vertex] - to, hit.point, options_.gradient,
