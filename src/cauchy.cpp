@@ -21,43 +21,15 @@ Matrix matrix_of_map(const ComplexVector& first, int columns) {
   return m;
 }
 
-// [Re M^T; Im M^T].
-Matrix stacked_transpose(const ComplexMatrix& M) {
-  Matrix stacked(2 * M.cols(), M.rows());
-  stacked << M.real().transpose(), M.imag().transpose();
-  return stacked;
-}
-
-// M^T W by one product of real matrices, with which Eigen is faster than with complex ones.
-ComplexMatrix product(const Matrix& stacked, const ComplexMatrix& W) {
-  const Eigen::Index rows = stacked.rows() / 2, columns = W.cols();
-  Matrix parts(W.rows(), 2 * columns);
+// M W of a real and a complex matrix, by one product of real ones.
+ComplexMatrix product(const Matrix& M, const ComplexMatrix& W) {
+  Matrix parts(W.rows(), 2 * W.cols());
   parts << W.real(), W.imag();
-  const Matrix p = stacked * parts;
-  ComplexMatrix result(rows, columns);
-  result.real() = p.topLeftCorner(rows, columns) - p.bottomRightCorner(rows, columns);
-  result.imag() = p.topRightCorner(rows, columns) + p.bottomLeftCorner(rows, columns);
+  const Matrix p = M * parts;
+  ComplexMatrix result(M.rows(), W.cols());
+  result.real() = p.leftCols(W.cols());
+  result.imag() = p.rightCols(W.cols());
   return result;
-}
-
-// Boundary values of C[tau] on the fluid side, by the compensated trapezoid rule
-//   v_j = (1/2 pi i) ( Sum_{k != j} (tau_k - tau_j)/(zeta_k - zeta_j) dz_k + tau'(alpha_j) 2 pi/N ) + { tau_j inside }.
-ComplexMatrix boundary_values(const Curve& curve, const ComplexVector& step, Side side) {
-  const int n = curve.size();
-  const Complex factor = 1.0 / (2.0 * pi * imaginary_unit);
-  const ComplexVector weighted = factor * step;
-  ComplexMatrix C = (factor * (2.0 * pi / n)) * matrix_of_map(fourier_derivative(ComplexVector::Unit(n, 0)), n);
-  for (int j = 0; j < n; ++j) {
-    Complex row_sum = 0.0;
-    for (int k = 0; k < n; ++k) {
-      if (k == j) continue;
-      const Complex c = quotient(weighted[k], curve.position[k] - curve.position[j]);
-      C(j, k) += c;
-      row_sum += c;
-    }
-    C(j, j) += (side == Side::interior ? 1.0 : 0.0) - row_sum;
-  }
-  return C;
 }
 
 }  // namespace
@@ -104,36 +76,52 @@ void barycentric_weights(const Curve& curve, Side side, Complex z, Eigen::Ref<Co
 }
 
 CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
-    : side_(side), fine_(refined(curve, upsampling)) {
+    : side_(side), fine_(refined(curve, upsampling)), slope_(fine_.derivative.cwiseInverse()),
+      poles_(ComplexVector::Zero(fine_.size())) {
   const int n = curve.size(), fine = fine_.size();
-  step_ = fine_.derivative * (2.0 * pi / fine);
-  limits_ = stacked_transpose(boundary_values(fine_, step_, side));
+  for (int k = 0; k < fine; ++k)
+    for (int j = 0; j < fine; ++j)
+      if (j != k) poles_[k] += quotient(fine_.derivative[j], fine_.position[k] - fine_.position[j]);
   const ComplexVector unit = ComplexVector::Unit(n, 0);
+  differentiate_ = matrix_of_map(fourier_derivative(ComplexVector::Unit(fine, 0)), fine).transpose();
   refine_ = matrix_of_map(fourier_upsample(unit, fine), n).transpose();
-  const Matrix derivative = matrix_of_map(fourier_upsample(fourier_derivative(unit), fine), n);
-  slope_ = stacked_transpose(fine_.derivative.cwiseInverse().asDiagonal() * derivative);
+  refine_derivative_ = matrix_of_map(fourier_upsample(fourier_derivative(unit), fine), n).transpose();
 }
 
 // Columns of C[tau](z), one a target, on the fine values of tau. From six fine spacings on the trapezoid rule itself is
-// exact to round-off, exp(-12 pi); nearer, the boundary values are continued.
+// exact to round-off, exp(-12 pi). Nearer, boundary values v_j are continued with barycentric weights w_j, the v_j by
+// the compensated trapezoid rule on the fluid side,
+//   v_j = (1/2 pi i) ( Sum_{k != j} (tau_k - tau_j)/(zeta_k - zeta_j) dz_k + tau'(alpha_j) 2 pi/N ) + { tau_j inside }.
+// The weights being a common factor times p_j = zeta'_j/(zeta_j - z), partial fractions leave of the double sum
+//   Sum_j w_j v_j = (1/i N) Sum_k tau_k w_k ( Sum_{j != k} p_j + 2 Sum_{j != k} zeta'_j/(zeta_k - zeta_j) )
+//                   + (1/i N) Sum_j w_j tau'(alpha_j) + { Sum_j w_j tau_j inside }.
 ComplexMatrix CloseEvaluation::cauchy_columns(const std::vector<Complex>& z) const {
   const Eigen::Index n = fine_.size(), targets = static_cast<Eigen::Index>(z.size());
   const double limit = 6.0 * fine_.max_spacing();
+  const Complex factor = 1.0 / (static_cast<double>(n) * imaginary_unit);
   ComplexMatrix columns(n, targets), weight(n, targets);
+  ComplexVector p(n);
   std::vector<Eigen::Index> close;
   for (Eigen::Index i = 0; i < targets; ++i) {
-    double smallest = limit * limit;
-    for (Eigen::Index k = 0; k < n; ++k) smallest = std::min(smallest, std::norm(fine_.position[k] - z[i]));
-    if (smallest < limit * limit) {
-      barycentric_weights(fine_, side_, z[i], weight.col(static_cast<Eigen::Index>(close.size())));
-      close.push_back(i);
-    } else {
-      for (Eigen::Index k = 0; k < n; ++k)
-        columns(k, i) = quotient(step_[k], 2.0 * pi * imaginary_unit * (fine_.position[k] - z[i]));
+    Eigen::Index nearest = 0;
+    const double smallest = (fine_.position.array() - z[i]).abs2().minCoeff(&nearest);
+    for (Eigen::Index k = 0; k < n; ++k) p[k] = quotient(fine_.derivative[k], fine_.position[k] - z[i]);
+    if (smallest >= limit * limit) {
+      columns.col(i) = factor * p;
+      continue;
     }
+    auto w = weight.col(static_cast<Eigen::Index>(close.size()));
+    barycentric_weights(fine_, side_, z[i], w);
+    close.push_back(i);
+    p[nearest] = 0.0;  // it may be infinite; w_k times it is w of the nearest times p_k
+    const Complex others = p.sum();
+    for (Eigen::Index k = 0; k < n; ++k)
+      columns(k, i) = factor * (w[k] * (others - p[k] + 2.0 * poles_[k]) + w[nearest] * p[k]);
+    if (side_ == Side::interior) columns.col(i) += w;
   }
-  const ComplexMatrix continued = product(limits_, weight.leftCols(static_cast<Eigen::Index>(close.size())));
-  for (std::size_t r = 0; r < close.size(); ++r) columns.col(close[r]) = continued.col(static_cast<Eigen::Index>(r));
+  const ComplexMatrix derivative = product(differentiate_, weight.leftCols(static_cast<Eigen::Index>(close.size())));
+  for (std::size_t r = 0; r < close.size(); ++r)
+    columns.col(close[r]) += factor * derivative.col(static_cast<Eigen::Index>(r));
   return columns;
 }
 
@@ -142,8 +130,9 @@ VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const
   ComplexMatrix columns = cauchy_columns(z);
   const Matrix direct = -s * (refine_ * columns.real());
   for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    for (Eigen::Index k = 0; k < columns.rows(); ++k) columns(k, i) *= std::conj(z[i] - fine_.position[k]);
-  return {direct.transpose(), (0.5 * s) * product(slope_, columns).adjoint()};
+    for (Eigen::Index k = 0; k < columns.rows(); ++k)
+      columns(k, i) *= std::conj(z[i] - fine_.position[k]) * slope_[k];
+  return {direct.transpose(), (0.5 * s) * product(refine_derivative_, columns).adjoint()};
 }
 
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {

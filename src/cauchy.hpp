@@ -41,11 +41,12 @@ class CloseEvaluation {
 
   Side side_;
   Curve fine_;
-  ComplexVector step_;   // zeta' 2 pi / N on the fine nodes
-  // Transposed, complex ones as their real parts above their imaginary ones:
-  Matrix limits_;        // boundary values of C[tau] from the fine values of tau
-  Matrix refine_;        // fine values of eta from eta
-  Matrix slope_;         // fine values of eta_alpha/zeta_alpha from eta
+  ComplexVector slope_;       // 1/zeta' on the fine nodes
+  ComplexVector poles_;       // Sum_{j != k} zeta'_j/(zeta_k - zeta_j) there
+  // Transposed:
+  Matrix differentiate_;      // fine values of tau' from those of tau
+  Matrix refine_;             // fine values of eta from eta
+  Matrix refine_derivative_;  // fine values of eta_alpha from eta
 };
 
 // Rows of the plain trapezoid rule at the same targets: what the fast sums compute.

@@ -36,8 +36,7 @@ Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<Placed
     : kind_(kind), boundaries_(boundaries) {
   if (kind != PreconditionerKind::pair) return;
   pairs_.resize(pairs.size());
-  const long nodes = boundaries.empty() ? 0 : boundaries.back().offset + boundaries.back().size();
-  parallel_for_large(static_cast<long>(pairs.size()), nodes, [&](long n) { pairs_[n] = prepared(pairs[n], block); });
+  parallel_for(static_cast<long>(pairs.size()), [&](long n) { pairs_[n] = prepared(pairs[n], block); });
 }
 
 Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const BlockFunction& block) const {

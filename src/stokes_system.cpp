@@ -100,7 +100,7 @@ void StokesSystem::find_near_blocks() {
   std::sort(near_.begin(), near_.end(), [](const NearBlock& a, const NearBlock& b) {
     return std::pair(a.target, a.source) < std::pair(b.target, b.source);
   });
-  parallel_for_large(static_cast<long>(near_.size()), node_count(), [&](long n) {
+  parallel_for(static_cast<long>(near_.size()), [&](long n) {
     NearBlock& near = near_[n];
     const PlacedShape &target = boundaries_[near.target], &source = boundaries_[near.source];
     std::vector<Complex> z(target.size());
