@@ -40,7 +40,7 @@ help:
 	@echo 'make movies           moving pictures of two suspensions, minutes (gnuplot)'
 	@echo 'make deps-figures     install gnuplot and LaTeX where they are missing; nothing else needs them'
 	@echo 'make all              build everything'
-	@echo 'make bench            time the kernels and the solver'
+	@echo 'make bench            time the kernels, the multipole method and the solver'
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make fuzz             read mutated input files, FUZZ="count=N seed=S"'
 	@echo 'make coverage         lines and functions of src that the tests reach (gcov)'
@@ -207,10 +207,18 @@ movies: $(BUILD)/simulate
 $(RESULTS)/bench/bench.csv: $(BUILD)/bench
 	@mkdir -p $(@D)
 	@{ $(BUILD)/bench threads=1; $(BUILD)/bench | tail -n +2; } > $@
+# points:tolerance:distribution:threads
+FMM_RUNS = $(foreach k,$(sort 1 $(shell nproc)),$(foreach n,1000 2000 4000 10000 100000 1000000,$(foreach d,uniform discs annulus, \
+             $(n):1e-9:$(d):$(k))) $(foreach t,1e-3 1e-6 1e-12,100000:$(t):uniform:$(k)))
+$(RESULTS)/bench/fmm.csv: $(BUILD)/bench_fmm
+	@mkdir -p $(@D)
+	@for run in $(FMM_RUNS); do echo $$run | { IFS=: read -r n t d k; \
+	   $(BUILD)/bench_fmm points=$$n tolerance=$$t distribution=$$d threads=$$k | sed "1 s/^/distribution,/; 2 s/^/$$d,/"; }; \
+	 done | awk 'NR == 1 || !/^distribution/' > $@
 bench:
-	@rm -f $(RESULTS)/bench/bench.csv
-	@$(MAKE) --no-print-directory $(RESULTS)/bench/bench.csv
-	@cat $(RESULTS)/bench/bench.csv
+	@rm -f $(RESULTS)/bench/bench.csv $(RESULTS)/bench/fmm.csv
+	@$(MAKE) --no-print-directory $(RESULTS)/bench/bench.csv $(RESULTS)/bench/fmm.csv
+	@cat $(RESULTS)/bench/bench.csv $(RESULTS)/bench/fmm.csv
 
 clean:
 	rm -rf $(BUILD) $(RESULTS)
