@@ -13,7 +13,8 @@ using namespace stokes;
 
 const std::vector<double> frame_times = {0.0, 2.0, 3.9, 4.1, 6.0, 8.0};
 constexpr Square view{{-8.0, -8.0}, 16.0};
-constexpr double near = 6.0;  // half of the side that the figure shows
+// Half of the side of the square in which the frame at t = 0, before any contact, has the published median.
+constexpr double narrow = 6.9;
 constexpr int grid_points = 161;
 
 enum class Contacts { answered, none, unanswered };
@@ -83,18 +84,18 @@ void run_case(const std::string& name, const Results& results) {
     double largest = 0.0;
     for (int i = 0; i < free_count; ++i) largest = std::max(largest, std::abs(frame.contact[i].force));
     std::vector<std::vector<double>> grid;
-    std::vector<double> fluid, fluid_near, source;
+    std::vector<double> fluid, fluid_narrow, source;
     for (const GridPoint& point : flow_of(frame, time < Injection{}.reverse_at ? 1.0 : -1.0, contacts)) {
       const double value = point.inside ? std::nan("") : std::log10(std::abs(stress(point.flow).xy));
       grid.push_back({point.x.real(), point.x.imag(), value, point.inside ? 1.0 : 0.0});
       if (point.inside) continue;
       fluid.push_back(value);
       source.push_back(std::log10(std::abs(source_shear_stress(point.x))));
-      if (std::abs(point.x.real()) <= near && std::abs(point.x.imag()) <= near) fluid_near.push_back(value);
+      if (std::abs(point.x.real()) <= narrow && std::abs(point.x.imag()) <= narrow) fluid_narrow.push_back(value);
     }
     results.write(concat(name, "_t", time), {"x", "y", "log10_abs_sigma_xy", "inside"}, grid, {{"time", format_number(time)}});
     row.push_back({concat("median_at_", time), median(fluid)});
-    row.push_back({concat("median_near_at_", time), median(fluid_near)});
+    row.push_back({concat("median_narrow_at_", time), median(fluid_narrow)});
     row.push_back({concat("median_of_source_at_", time), median(source)});
     row.push_back({concat("largest_contact_force_at_", time), largest});
   }

@@ -145,16 +145,17 @@ VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Com
   const double s = side == Side::interior ? 1.0 : -1.0;
   const auto n = static_cast<Eigen::Index>(nodes.size()), targets = static_cast<Eigen::Index>(z.size());
   VelocityRows rows{Matrix(targets, n), ComplexMatrix(targets, n)};
-  for (Eigen::Index i = 0; i < targets; ++i)
-    for (Eigen::Index c = 0; c < n; ++c) {
-      // (1/pi)(r.n)(r.eta) r/|r|^4 w  with  (r.eta) r = (|r|^2 eta + r^2 conj(eta))/2
-      const int k = nodes[c];
+  for (Eigen::Index c = 0; c < n; ++c) {
+    // (1/pi)(r.n)(r.eta) r/|r|^4 w  with  (r.eta) r = (|r|^2 eta + r^2 conj(eta))/2
+    const int k = nodes[c];
+    const Complex normal = -imaginary_unit * (s * curve.weight[k] / (2.0 * pi)) * curve.tangent[k];
+    for (Eigen::Index i = 0; i < targets; ++i) {
       const Complex r = z[i] - curve.position[k];
-      const Complex normal = -imaginary_unit * s * curve.tangent[k];
-      const double rr = std::norm(r), f = curve.weight[k] * dot(r, normal) / (2.0 * pi * rr);
+      const double over = 1.0 / std::norm(r), f = dot(r, normal) * over;
       rows.direct(i, c) = f;
-      rows.conjugate(i, c) = f * r * r / rr;
+      rows.conjugate(i, c) = f * over * (r * r);
     }
+  }
   return rows;
 }
 

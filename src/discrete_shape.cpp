@@ -173,11 +173,7 @@ double near_distance_of_gradient(const DiscreteShape& shape) { return 8.0 * shap
 std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z, double limit) {
   std::vector<int> rows;
   for (int i = 0; i < static_cast<int>(z.size()); ++i)
-    for (int k = 0; k < shape.size(); ++k)
-      if (std::norm(z[i] - shape.curve.position[k]) < limit * limit) {
-        rows.push_back(i);
-        break;
-      }
+    if ((shape.curve.position.array() - z[i]).abs2().minCoeff() < limit * limit) rows.push_back(i);
   return rows;
 }
 
