@@ -29,12 +29,12 @@ Suspension first_contact() {
   Suspension bodies;
   bool met = false;
   TaylorGreen parameters;
-  parameters.end_time = 3.0;
+  parameters.end_time = 4.0;
   run_taylor_green(taylor_green_bodies(), parameters, [&](const StepRecord& record) {
     if (met && bodies.empty()) bodies = record.bodies;
     met = met || (record.outcome && !record.outcome->contacts.empty());
   });
-  if (bodies.empty()) throw NumericalError("no contact up to t = 3");
+  if (bodies.empty()) throw NumericalError(concat("no contact up to t = ", parameters.end_time));
   return bodies;
 }
 
