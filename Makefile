@@ -148,7 +148,7 @@ TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
 # Section 4.4: SEEDS starts of each suspension; longest first.
 SEEDS              ?= 1
 COUETTE            = phi10_lambda6 phi15_lambda3 phi5_lambda6 phi10_lambda3 phi15_lambda1 phi10_lambda1 phi5_lambda3 phi5_lambda1
-COUETTE_VARIANTS   = points64 halfstep stiv
+COUETTE_VARIANTS   = points64 halfstep stiv quick
 COUETTE_CASES      = $(foreach k,$(shell seq $(SEEDS)),$(COUETTE:%=%_seed$(k))) $(COUETTE_VARIANTS:%=phi5_lambda3_seed1_%)
 COUETTE_TABLES     = table2_order_parameter table3_effective_viscosity fig9_order_parameter fig10_effective_viscosity
 
