@@ -42,7 +42,7 @@ set ytics 0.2
 set format y "%.1f"
 set xlabel "x of the left disc" offset 0,0.3
 set ylabel "y_{left} − y_{right}" offset 0.5,0
-set key top left samplen 0.6 Left reverse font ",6"
+set key at graph 1.035, graph 0.98 top right samplen 0.6 Left reverse font ",6"
 plot for [k = 1:5] folder . "delta" . separation[k] . "h_trajectory.csv" \
          using "left_x":"difference_y" \
          with lines linewidth 1.4 linecolor rgb delta_colour[k] \
@@ -57,7 +57,7 @@ set ytics 0.02
 set format y "%.2f"
 set xlabel "δ/h"
 set ylabel "displacement" offset 0.8,0
-set key top left font ",7"
+set key inside top left font ",7"
 plot $ends \
          using "separation_over_h":"displacement" \
          with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \

@@ -48,7 +48,7 @@ set lmargin at screen 0.70
 set rmargin at screen 0.98
 set xrange [0.7475:0.7625]
 set yrange [0.768:0.786]
-set xtics 0.005
+set xtics 0.005 font ",6"
 set ytics 0.005
 set format y "%.3f"
 set format x "%.3f"
