@@ -390,6 +390,14 @@ TEST_CASE("stiv: V ignores common translations, turns with the axes, scales with
   }
 }
 
+TEST_CASE("stiv: V is met to one vertex 1e-4 of the separation deep, without a separation to 1e-12") {
+  Step step = discs(1.8);
+  const double edge = 2.0 * (1.0 + 0.5 * step.separation) * std::sin(pi / 64.0);
+  CHECK(relative(contacts(step, 64)[0].tolerance, 1e-4 * step.separation * edge) < 1e-12);
+  step.separation = 0.0;
+  CHECK(contacts(step, 64)[0].tolerance == 1e-12);
+}
+
 TEST_CASE("stiv: too few vertices, a negative separation and a trial of another size are refused") {
   const Step step = discs(1.8);
   CHECK_THROWS_AS(StivCollector(step.start, 0.02, {7}), InputError);
