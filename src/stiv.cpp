@@ -13,7 +13,7 @@ namespace stokes {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-4;    // of the separation, for the depth of one vertex
+constexpr double relative_tolerance = 1e-4;    // of the separation, for the depth of one vertex, as for gaps
 constexpr double smallest_tolerance = 1e-12;   // of the product of the circumradii, for a volume
 constexpr int fewest_vertices = 8;
 
@@ -28,6 +28,11 @@ std::vector<Complex> offset_polygon(const Shape& shape, int vertices, double off
   std::vector<Complex> points(vertices);
   for (int k = 0; k < vertices; ++k) points[k] = curve.position[k] - offset * perp(curve.tangent[k]);
   return points;
+}
+
+// Of a volume between bodies (or the container) of these sizes, the vertices of which are at least `spacing` apart.
+double volume_tolerance(double size_a, double size_b, double separation, double spacing) {
+  return std::max(smallest_tolerance * size_a * size_b, relative_tolerance * separation * spacing);
 }
 
 // Half the length of the two edges at each vertex.
@@ -148,9 +153,8 @@ std::vector<ContactConstraint> StivCollector::collect_pair(int a, int b, const s
   RegionNames names(std::move(sets));
   names.add(hits_of_a, of_a), names.add(hits_of_b, of_b);
 
-  const double tolerance = std::max(
-      smallest_tolerance * start_[a].shape.circumradius() * start_[b].shape.circumradius(),
-      relative_tolerance * separation_ * std::min(outline_[a].shortest, outline_[b].shortest));
+  const double tolerance = volume_tolerance(start_[a].shape.circumradius(), start_[b].shape.circumradius(), separation_,
+                                            std::min(outline_[a].shortest, outline_[b].shortest));
   std::vector<ContactConstraint> regions = names.constraints(a, b, tolerance);
   const auto add_all = [&](const std::vector<VertexHit>& hits, bool entering_a) {
     const MovingPolygon &moving = entering_a ? first : second, &target = entering_a ? second : first;
@@ -182,8 +186,8 @@ std::vector<ContactConstraint> StivCollector::collect_wall(int a, const Pose& tr
   join_neighbours(hits, vertices, sets);
   RegionNames names(std::move(sets));
   names.add(hits, vertices);
-  const double tolerance = std::max(smallest_tolerance * start_[a].shape.circumradius() * container.radius,
-                                    relative_tolerance * separation_ * outline_[a].shortest);
+  const double tolerance =
+      volume_tolerance(start_[a].shape.circumradius(), container.radius, separation_, outline_[a].shortest);
   std::vector<ContactConstraint> regions = names.constraints(a, container_index, tolerance);
   for (const WallHit& hit : hits)
     add(hit, true, outline_[a].arclength[hit.vertex], polygon.end[hit.vertex] - to, hit.point, options_.gradient,
