@@ -12,7 +12,7 @@ namespace stokes {
 enum class PreconditionerKind {
   none,
   block,  // D^-1: each boundary's own block, by the inverse that its shape carries
-  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1): their 2 x 2 block systems exactly
+  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1): their 2 x 2 block systems to 1e-3
 };
 
 class Preconditioner {
@@ -21,7 +21,7 @@ class Preconditioner {
   using BlockFunction = std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
   // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Of a large circle only the nodes beside
-  // the other member take part. Cost per pair O(N_i N_j^2 + N_i^3), N_i the smaller number of nodes.
+  // the other member take part. Cost per pair O(N_i^2 N_j), N_i the smaller number of nodes.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
 
@@ -30,12 +30,14 @@ class Preconditioner {
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:
-  // With X = D_i^-1 C_ij and Y = D_j^-1 C_ji the pair's system is [I X; Y I] z = [D_i^-1 r_i; D_j^-1 r_j], and
-  // z_i = (I - X Y)^-1 (d_i - X d_j), z_j = d_j - Y z_i. In single precision, which halves what they cost to make and to apply.
+  // Far fewer fields than nodes pass between the members: C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With A = D_i^-1 P_i and
+  // B = D_j^-1 P_j the pair's system D^-1 C z + z = d is z_i = d_i - A s, z_j = d_j - B t, and with G = Q_i^T B, H = Q_j^T A
+  //   s = Q_i^T z_j = (I - G H)^-1 (Q_i^T d_j - G Q_j^T d_i),  t = Q_j^T z_i = Q_j^T d_i - H s.
+  // A and H hold the factor (I - G H)^-1. In single precision, which halves what they cost to make and to apply.
   struct Pair {
     int i, j;
     std::vector<int> part;  // nodes of j that take part
-    Eigen::MatrixXf X, Y, inverse;
+    Eigen::MatrixXf A, B, Q_i, Q_j, G, H;
   };
 
   Pair prepared(std::pair<int, int> members, const BlockFunction& block) const;
