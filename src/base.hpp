@@ -38,7 +38,10 @@ inline Complex perp(Complex v) { return {-v.imag(), v.real()}; }
 
 // 1/z and u/z without the checks for overflow that make the language's own division several times slower.
 inline Complex reciprocal(Complex z) { return std::conj(z) / std::norm(z); }
-inline Complex quotient(Complex u, Complex z) { return u * reciprocal(z); }
+inline Complex quotient(Complex u, Complex z) {
+  const double over = 1.0 / std::norm(z);
+  return {dot(u, z) * over, -cross(u, z) * over};
+}
 
 // The input is wrong; the message is one paragraph: what, where, value against limit, what to try.
 // A program that catches it has written nothing and exits with status 2.

@@ -1,6 +1,6 @@
 #include "cauchy.hpp"
 
-#include <limits>
+#include <cmath>
 #include <numeric>
 
 #include "fourier.hpp"
@@ -41,98 +41,102 @@ Curve refined(const Curve& curve, int upsampling) {
   return Curve(fourier_upsample(curve.position, fine), first, fourier_derivative(first));
 }
 
-// With j the nearest node, the weights are written for the differences f_k - f_j, which keeps full accuracy as z
-// approaches node j. On the exterior side the rule is applied to zeta f, which tends to a constant at infinity.
-void barycentric_weights(const Curve& curve, Side side, Complex z, Eigen::Ref<ComplexVector> weight) {
-  const int n = curve.size();
-  const bool exterior = side == Side::exterior;
-  int nearest = 0;
-  double smallest = std::norm(curve.position[0] - z);
-  for (int k = 1; k < n; ++k) {
-    const double d = std::norm(curve.position[k] - z);
-    if (d < smallest) smallest = d, nearest = k;
-  }
-  if (smallest < std::numeric_limits<double>::min()) {  // on the node: its reciprocal would overflow
-    weight.setZero();
-    weight[nearest] = 1.0;
-    return;
-  }
-  Complex total = 0.0;
-  for (int k = 0; k < n; ++k) {
-    const Complex zeta = curve.position[k];
-    weight[k] = quotient(exterior ? quotient(curve.derivative[k], zeta) : curve.derivative[k], zeta - z);
-    total += weight[k];
-  }
-  const Complex scale = reciprocal(total);
-  Complex others = 0.0;
-  for (int k = 0; k < n; ++k) {
-    if (k == nearest) continue;
-    weight[k] *= scale;
-    others += weight[k];
-  }
-  weight[nearest] = 1.0 - others;
-  if (exterior)
-    for (int k = 0; k < n; ++k) weight[k] *= quotient(curve.position[k], z);
+PoleTerms pole_terms(const Curve& curve, Complex z) {
+  PoleTerms terms;
+  terms.distance = std::sqrt((curve.position.array() - z).abs2().minCoeff(&terms.nearest));
+  terms.p.resize(curve.size());
+  for (Eigen::Index k = 0; k < curve.size(); ++k) terms.p[k] = quotient(curve.derivative[k], curve.position[k] - z);
+  terms.p[terms.nearest] = 0.0;
+  terms.others = terms.p.sum();
+  return terms;
+}
+
+Complex winding(const Curve& curve, Side side) {
+  Complex sum = 0.0;
+  for (Eigen::Index k = 0; side == Side::exterior && k < curve.size(); ++k)
+    sum += quotient(curve.derivative[k], curve.position[k]);
+  return sum;
+}
+
+// p_k over Sum_k p_k, or on the exterior side, where the rule is applied to zeta f, which tends to a constant at
+// infinity, over Sum_k p_k - winding. Both divided by the largest p, of the nearest node.
+void barycentric_weights(const Curve& curve, Complex winding, Complex z, const PoleTerms& terms,
+                         Eigen::Ref<ComplexVector> weight) {
+  const Eigen::Index j = terms.nearest;
+  const Complex over_largest = quotient(curve.position[j] - z, curve.derivative[j]);
+  const Complex of_nearest = reciprocal(1.0 + (terms.others - winding) * over_largest);
+  weight = (over_largest * of_nearest) * terms.p;
+  weight[j] = of_nearest;
 }
 
 CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
-    : side_(side), fine_(refined(curve, upsampling)), slope_(fine_.derivative.cwiseInverse()),
+    : side_(side), fine_(refined(curve, upsampling)), winding_(winding(fine_, side)),
+      slope_(fine_.derivative.cwiseInverse()),
+      bend_(-fourier_derivative(fine_.derivative).cwiseProduct(slope_.cwiseProduct(slope_))),
       poles_(ComplexVector::Zero(fine_.size())) {
   const int n = curve.size(), fine = fine_.size();
   for (int k = 0; k < fine; ++k)
     for (int j = 0; j < fine; ++j)
       if (j != k) poles_[k] += quotient(fine_.derivative[j], fine_.position[k] - fine_.position[j]);
-  const ComplexVector unit = ComplexVector::Unit(n, 0);
-  differentiate_ = matrix_of_map(fourier_derivative(ComplexVector::Unit(fine, 0)), fine).transpose();
+  const ComplexVector unit = ComplexVector::Unit(n, 0), first = fourier_derivative(unit);
   refine_ = matrix_of_map(fourier_upsample(unit, fine), n).transpose();
-  refine_derivative_ = matrix_of_map(fourier_upsample(fourier_derivative(unit), fine), n).transpose();
+  refine_derivative_ = matrix_of_map(fourier_upsample(first, fine), n).transpose();
+  refine_second_ = matrix_of_map(fourier_upsample(fourier_derivative(first), fine), n).transpose();
 }
 
-// Columns of C[tau](z), one a target, on the fine values of tau. From six fine spacings on the trapezoid rule itself is
-// exact to round-off, exp(-12 pi). Nearer, boundary values v_j are continued with barycentric weights w_j, the v_j by
-// the compensated trapezoid rule on the fluid side,
-//   v_j = (1/2 pi i) ( Sum_{k != j} (tau_k - tau_j)/(zeta_k - zeta_j) dz_k + tau'(alpha_j) 2 pi/N ) + { tau_j inside }.
+// From six fine spacings on the trapezoid rule itself is exact to round-off, exp(-12 pi). Nearer, boundary values v_j are
+// continued with barycentric weights w_j, the v_j by the compensated trapezoid rule on the fluid side,
+//   v_j = (1/2 pi i) ( Sum_{k != j} (tau_k - tau_j)/(zeta_k - zeta_j) dz_k + tau_alpha,j 2 pi/N ) + { tau_j inside }.
 // The weights being a common factor times p_j = zeta'_j/(zeta_j - z), partial fractions leave of the double sum
 //   Sum_j w_j v_j = (1/i N) Sum_k tau_k w_k ( Sum_{j != k} p_j + 2 Sum_{j != k} zeta'_j/(zeta_k - zeta_j) )
-//                   + (1/i N) Sum_j w_j tau'(alpha_j) + { Sum_j w_j tau_j inside }.
-ComplexMatrix CloseEvaluation::cauchy_columns(const std::vector<Complex>& z) const {
+//                   + (1/i N) Sum_j w_j tau_alpha,j + { Sum_j w_j tau_j inside }.
+CloseEvaluation::CauchyColumns CloseEvaluation::cauchy_columns(const std::vector<Complex>& z) const {
   const Eigen::Index n = fine_.size(), targets = static_cast<Eigen::Index>(z.size());
   const double limit = 6.0 * fine_.max_spacing();
   const Complex factor = 1.0 / (static_cast<double>(n) * imaginary_unit);
-  ComplexMatrix columns(n, targets), weight(n, targets);
-  ComplexVector p(n);
-  std::vector<Eigen::Index> close;
+  CauchyColumns columns{ComplexMatrix(n, targets), ComplexMatrix(n, targets), {}};
+  ComplexVector w(n);
   for (Eigen::Index i = 0; i < targets; ++i) {
-    Eigen::Index nearest = 0;
-    const double smallest = (fine_.position.array() - z[i]).abs2().minCoeff(&nearest);
-    for (Eigen::Index k = 0; k < n; ++k) p[k] = quotient(fine_.derivative[k], fine_.position[k] - z[i]);
-    if (smallest >= limit * limit) {
-      columns.col(i) = factor * p;
+    const PoleTerms terms = pole_terms(fine_, z[i]);
+    auto of_value = columns.of_value.col(i);
+    if (terms.distance >= limit) {
+      of_value = factor * terms.p;
+      of_value[terms.nearest] = factor * quotient(fine_.derivative[terms.nearest], fine_.position[terms.nearest] - z[i]);
       continue;
     }
-    auto w = weight.col(static_cast<Eigen::Index>(close.size()));
-    barycentric_weights(fine_, side_, z[i], w);
-    close.push_back(i);
-    p[nearest] = 0.0;  // it may be infinite; w_k times it is w of the nearest times p_k
-    const Complex others = p.sum();
-    for (Eigen::Index k = 0; k < n; ++k)
-      columns(k, i) = factor * (w[k] * (others - p[k] + 2.0 * poles_[k]) + w[nearest] * p[k]);
-    if (side_ == Side::interior) columns.col(i) += w;
+    barycentric_weights(fine_, winding_, z[i], terms, w);
+    // p of the nearest may be infinite; w_k times it is w of the nearest times p_k.
+    of_value = factor * (w.array() * (terms.others - terms.p.array() + 2.0 * poles_.array()) +
+                         w[terms.nearest] * terms.p.array()).matrix();
+    if (side_ == Side::interior) of_value += w;
+    columns.of_derivative.col(static_cast<Eigen::Index>(columns.close.size())) = factor * w;
+    columns.close.push_back(i);
   }
-  const ComplexMatrix derivative = product(differentiate_, weight.leftCols(static_cast<Eigen::Index>(close.size())));
-  for (std::size_t r = 0; r < close.size(); ++r)
-    columns.col(close[r]) += factor * derivative.col(static_cast<Eigen::Index>(r));
+  columns.of_derivative.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(columns.close.size()));
   return columns;
 }
 
+// tau = eta, and tau = conj(z - zeta) eta_alpha/zeta_alpha with the product rule for its derivative.
 VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const {
   const double s = side_ == Side::interior ? 1.0 : -1.0;
-  ComplexMatrix columns = cauchy_columns(z);
-  const Matrix direct = -s * (refine_ * columns.real());
-  for (Eigen::Index i = 0; i < columns.cols(); ++i)
-    for (Eigen::Index k = 0; k < columns.rows(); ++k)
-      columns(k, i) *= std::conj(z[i] - fine_.position[k]) * slope_[k];
-  return {direct.transpose(), (0.5 * s) * product(refine_derivative_, columns).adjoint()};
+  auto [of_value, of_derivative, close] = cauchy_columns(z);
+  Matrix direct = refine_ * of_value.real();
+  const Matrix direct_close = refine_derivative_ * of_derivative.real();
+  for (Eigen::Index i = 0; i < of_value.cols(); ++i)
+    of_value.col(i).array() *= (z[i] - fine_.position.array()).conjugate() * slope_.array();
+  for (std::size_t r = 0; r < close.size(); ++r) {
+    const Eigen::Index i = close[r];
+    direct.col(i) += direct_close.col(static_cast<Eigen::Index>(r));
+    auto column = of_derivative.col(static_cast<Eigen::Index>(r)).array();
+    const auto distance = (z[i] - fine_.position.array()).conjugate();
+    of_value.col(i).array() += column * (distance * bend_.array() - fine_.derivative.array().conjugate() * slope_.array());
+    column *= distance * slope_.array();
+  }
+  ComplexMatrix conjugate = product(refine_derivative_, of_value);
+  const ComplexMatrix conjugate_close = product(refine_second_, of_derivative);
+  for (std::size_t r = 0; r < close.size(); ++r)
+    conjugate.col(close[r]) += conjugate_close.col(static_cast<Eigen::Index>(r));
+  return {-s * direct.transpose(), (0.5 * s) * conjugate.adjoint()};
 }
 
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {

@@ -37,16 +37,21 @@ class CloseEvaluation {
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 
  private:
-  ComplexMatrix cauchy_columns(const std::vector<Complex>& z) const;
+  // C[tau](z) = Sum_k ( of_value_k tau_k + of_derivative_k tau_alpha,k ) on the fine nodes, a column for each z and
+  // for each of those `close` enough to need the derivative.
+  struct CauchyColumns {
+    ComplexMatrix of_value, of_derivative;
+    std::vector<Eigen::Index> close;
+  };
+  CauchyColumns cauchy_columns(const std::vector<Complex>& z) const;
 
   Side side_;
   Curve fine_;
-  ComplexVector slope_;       // 1/zeta' on the fine nodes
-  ComplexVector poles_;       // Sum_{j != k} zeta'_j/(zeta_k - zeta_j) there
-  // Transposed:
-  Matrix differentiate_;      // fine values of tau' from those of tau
-  Matrix refine_;             // fine values of eta from eta
-  Matrix refine_derivative_;  // fine values of eta_alpha from eta
+  Complex winding_;
+  ComplexVector slope_, bend_;  // 1/zeta_alpha on the fine nodes and its derivative
+  ComplexVector poles_;         // Sum_{j != k} zeta'_j/(zeta_k - zeta_j) there
+  // Fine values of eta, eta_alpha and eta_alpha,alpha from eta, transposed:
+  Matrix refine_, refine_derivative_, refine_second_;
 };
 
 // Rows of the plain trapezoid rule at the same targets: what the fast sums compute.
@@ -57,9 +62,23 @@ VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Com
 // The curve at `upsampling` times as many nodes, its own among them.
 Curve refined(const Curve& curve, int upsampling);
 
+// Terms zeta'_k/(zeta_k - z) of the trapezoid rule for Cauchy integrals at z. That of the nearest node, which may be
+// infinite, is apart: `p` has 0 there.
+struct PoleTerms {
+  ComplexVector p;
+  Complex others;  // their sum
+  Eigen::Index nearest;
+  double distance;  // of the nearest node
+};
+PoleTerms pole_terms(const Curve& curve, Complex z);
+
+// Sum_k zeta'_k/zeta_k on the exterior side, 0 on the interior.
+Complex winding(const Curve& curve, Side side);
+
 // Weights at z, in the fluid or on the curve, of the boundary values f_k of a function f that is analytic in
 // the fluid and, on the exterior side, vanishes at infinity: f(z) = Sum_k weight_k f_k. The curve is relative to a
 // point inside it. Cost O(N).
-void barycentric_weights(const Curve& curve, Side side, Complex z, Eigen::Ref<ComplexVector> weight);
+void barycentric_weights(const Curve& curve, Complex winding, Complex z, const PoleTerms& terms,
+                         Eigen::Ref<ComplexVector> weight);
 
 }  // namespace stokes

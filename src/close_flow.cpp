@@ -38,7 +38,7 @@ PointFlow flow_from(Complex z, const GoursatVector& g) {
 }  // namespace
 
 CloseFlow::CloseFlow(const Curve& curve, Side side, int upsampling, const ComplexVector& density)
-    : side_(side), upsampling_(upsampling), fine_(refined(curve, upsampling)) {
+    : upsampling_(upsampling), fine_(refined(curve, upsampling)), winding_(winding(fine_, side)) {
   const int n = fine_.size();
   const ComplexVector first = fourier_derivative(density), along = fourier_upsample(first, n);
   const auto derivative = fine_.derivative.array();
@@ -61,7 +61,7 @@ CloseFlow::CloseFlow(const Curve& curve, Side side, int upsampling, const Comple
 
 PointFlow CloseFlow::at(Complex z) const {
   ComplexVector weight(fine_.size());
-  barycentric_weights(fine_, side_, z, weight);
+  barycentric_weights(fine_, winding_, z, pole_terms(fine_, z), weight);
   return flow_from(z, boundary_ * weight);
 }
 

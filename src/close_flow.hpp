@@ -32,9 +32,9 @@ class CloseFlow {
   std::vector<PointFlow> at_nodes() const;
 
  private:
-  Side side_;
   int upsampling_;
   Curve fine_;
+  Complex winding_;
   Eigen::Matrix<Complex, 5, Eigen::Dynamic> boundary_;  // limits of phi, phi', phi'', psi, psi' at the fine nodes
 };
 

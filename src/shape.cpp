@@ -1,5 +1,6 @@
 #include "shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "curve.hpp"
@@ -35,15 +36,17 @@ struct ParameterMap {
   double s, first, second;
 };
 
+double ratio(const NodeCluster& c) { return (c.density - 1.0) / (c.density + 1.0); }
+
+// Without the constant that makes s = 0 at alpha = 0.
 ParameterMap parameter_map(double alpha, const std::vector<NodeCluster>& clusters) {
   ParameterMap map{alpha, 1.0, 0.0};
   for (const NodeCluster& c : clusters) {
-    const double r = (c.density - 1.0) / (c.density + 1.0);
-    const auto integral = [r](double x) { return x + 2.0 * std::atan2(r * std::sin(x), 1.0 - r * std::cos(x)); };
-    const double x = alpha - c.alpha, q = 1.0 - 2.0 * r * std::cos(x) + r * r;
-    map.s += integral(x) - integral(-c.alpha);
-    map.first += (1.0 - r * r) / q;
-    map.second -= (1.0 - r * r) * 2.0 * r * std::sin(x) / (q * q);
+    const double r = ratio(c), x = alpha - c.alpha, sine = std::sin(x), cosine = std::cos(x);
+    const double q = 1.0 - 2.0 * r * cosine + r * r, slope = (1.0 - r * r) / q;
+    map.s += x + 2.0 * std::atan2(r * sine, 1.0 - r * cosine);
+    map.first += slope;
+    map.second -= slope * 2.0 * r * sine / q;
   }
   const double scale = 1.0 / (1.0 + static_cast<double>(clusters.size()));
   return {scale * map.s, scale * map.first, scale * map.second};
@@ -52,24 +55,31 @@ ParameterMap parameter_map(double alpha, const std::vector<NodeCluster>& cluster
 }  // namespace
 
 double Shape::position_of(double alpha, const Discretisation& nodes) {
-  return nodes.clusters.empty() ? alpha : parameter_map(alpha, nodes.clusters).s;
+  if (nodes.clusters.empty()) return alpha;
+  return parameter_map(alpha, nodes.clusters).s - parameter_map(0.0, nodes.clusters).s;
 }
 
-// Newton's method from the node before, kept between bounds that it narrows; s increases with alpha.
+// Newton's method from where the node before points to, kept between bounds that it narrows; s increases with alpha.
 std::vector<double> Shape::parameters(const Discretisation& nodes) {
   const int n = nodes.size();
+  const double spacing = 2.0 * pi / n;
   std::vector<double> alpha(n);
-  for (int k = 0; k < n; ++k) {
-    const double s = 2.0 * pi * k / n;
-    alpha[k] = s;
-    if (nodes.clusters.empty() || k == 0) continue;
-    double low = alpha[k - 1], high = 2.0 * pi, x = low;
+  if (nodes.clusters.empty()) {
+    for (int k = 0; k < n; ++k) alpha[k] = spacing * k;
+    return alpha;
+  }
+  ParameterMap map = parameter_map(0.0, nodes.clusters);
+  const double start = map.s;
+  for (int k = 1; k < n; ++k) {
+    const double s = start + spacing * k;
+    double low = alpha[k - 1], high = 2.0 * pi, x = std::min(low + spacing / map.first, high);
     for (int iteration = 0; iteration < 100; ++iteration) {
-      const ParameterMap map = parameter_map(x, nodes.clusters);
+      map = parameter_map(x, nodes.clusters);
       (map.s < s ? low : high) = x;
       const double step = (s - map.s) / map.first;
       const double next = x + step > low && x + step < high ? x + step : 0.5 * (low + high);
-      const bool done = std::abs(next - x) <= 1e-15 * (1.0 + next);
+      // A step so small leaves its square.
+      const bool done = std::abs(next - x) <= 1e-10 && next == x + step;
       x = next;
       if (done) break;
     }
