@@ -112,7 +112,8 @@ inline std::string help_of(const Experiment& experiment) {
 
 inline int parse_threads(const std::string& argument) {
   const auto count = parse_integer(argument.substr(argument.find('=') + 1));
-  if (!count || *count < 1 || *count > 1024) throw InputError(concat(quote(argument), " must be a whole number from 1 to 1024"));
+  if (!count || *count < 1 || *count > most_threads)
+    throw InputError(concat(quote(argument), " must be a whole number from 1 to ", most_threads));
   return static_cast<int>(*count);
 }
 

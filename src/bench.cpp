@@ -124,7 +124,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     const auto threads = argument.starts_with("threads=") ? parse_integer(argument.substr(8)) : std::nullopt;
-    if (!threads || *threads < 1 || *threads > 1024) {
+    if (!threads || *threads < 1 || *threads > most_threads) {
       std::fputs(usage, stderr);
       return 2;
     }

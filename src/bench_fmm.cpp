@@ -53,7 +53,7 @@ Options parse(int argc, char** argv) {
     if (key == "points") {
       options.points = whole_number(argument, value, 100'000'000);
     } else if (key == "threads") {
-      set_thread_count(whole_number(argument, value, 1024));
+      set_thread_count(whole_number(argument, value, most_threads));
     } else if (key == "tolerance" && parse_number(value)) {
       options.tolerance = *parse_number(value);
     } else if (argument == "distribution=uniform") {

@@ -6,6 +6,7 @@
 #include "annulus.hpp"
 #include "case_keys.hpp"
 #include "recorder.hpp"
+#include "threads.hpp"
 
 namespace stokes {
 
@@ -138,7 +139,7 @@ void check_case(const Case& c, const GivenKeys& given) {
   check_output(c, limit);
   if (c.threads) {
     limit(*c.threads >= 1, "threads", "must be at least 1; leave it out for all cores.");
-    limit(*c.threads <= 1024, "threads", "is above 1024; leave it out for all cores.");
+    limit(*c.threads <= most_threads, "threads", concat("is above ", most_threads, "; leave it out for all cores."));
   }
 }
 

@@ -9,7 +9,6 @@ namespace stokes {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-4;  // of the separation, at active contacts
 // When no separation is asked for: of the smallest semi-axis, below which the sum over nodes that face each other
 // loses more digits than a solution to 1e-8 can spare, and of the distance from the origin, whose
 // round-off the tolerance must exceed.
@@ -27,7 +26,7 @@ GapCollector::GapCollector(const Suspension& start, double separation) : start_(
     if (start.container) extent = std::max(extent, std::abs(start.container->centre) + start.container->radius);
     separation_ = std::max(smallest_separation * smallest, smallest_of_extent * extent);
   }
-  tolerance_ = relative_tolerance * separation_;
+  tolerance_ = contact_tolerance * separation_;
 }
 
 // Where the body ends inside, every plane that touches the wall is behind it: a hit on the way adds nothing.

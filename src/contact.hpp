@@ -23,6 +23,9 @@ enum class ContactModel {
   stiv,  // the paper's: space-time interference volumes between polygons, clusters balanced (stiv.hpp, cluster.hpp)
 };
 
+// Part of the separation by which active contacts may miss it: at a gap, or for a volume at one vertex.
+inline constexpr double contact_tolerance = 1e-4;
+
 struct ContactConstraint {
   int a, b;              // bodies, a < b; b may be container_index
   int region;            // several contacts of one pair are told apart by this number, 0, 1, ...

@@ -1,29 +1,13 @@
 #include "direct_sum.hpp"
 
-#include <cstring>
-
+#include "pack.hpp"
 #include "threads.hpp"
 
 namespace stokes {
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int lanes = 8;
-#elif defined(__AVX__)
-constexpr int lanes = 4;
-#else
-constexpr int lanes = 2;
-#endif
-// Arithmetic on a pack is element by element; the compiler maps it to the vector registers.
-typedef double Pack __attribute__((vector_size(lanes * sizeof(double))));
 constexpr int block = 2 * lanes;  // targets that share one division
-
-Pack load(const double* p) {
-  Pack v;
-  std::memcpy(&v, p, sizeof v);
-  return v;
-}
 
 struct SourceArrays {
   const double *x, *y, *nx, *ny, *ex, *ey;  // ex, ey: density / pi
@@ -46,8 +30,8 @@ void sum_block(const double* tx, const double* ty, const SourceArrays& s, double
     ux0 += f0 * rx0, uy0 += f0 * ry0;
     ux1 += f1 * rx1, uy1 += f1 * ry1;
   }
-  std::memcpy(ux, &ux0, sizeof ux0), std::memcpy(ux + lanes, &ux1, sizeof ux1);
-  std::memcpy(uy, &uy0, sizeof uy0), std::memcpy(uy + lanes, &uy1, sizeof uy1);
+  store(ux, ux0), store(ux + lanes, ux1);
+  store(uy, uy0), store(uy + lanes, uy1);
 }
 
 }  // namespace

@@ -13,8 +13,7 @@ namespace stokes {
 
 namespace {
 
-constexpr double relative_tolerance = 1e-4;    // of the separation, for the depth of one vertex, as for gaps
-constexpr double smallest_tolerance = 1e-12;   // of the product of the circumradii, for a volume
+constexpr double smallest_tolerance = 1e-12;  // of the product of the circumradii, for a volume
 constexpr int fewest_vertices = 8;
 
 std::vector<Complex> moved(const std::vector<Complex>& points, Complex factor, Complex shift) {
@@ -32,7 +31,7 @@ std::vector<Complex> offset_polygon(const Shape& shape, int vertices, double off
 
 // Of a volume between bodies (or the container) of these sizes, the vertices of which are at least `spacing` apart.
 double volume_tolerance(double size_a, double size_b, double separation, double spacing) {
-  return std::max(smallest_tolerance * size_a * size_b, relative_tolerance * separation * spacing);
+  return std::max(smallest_tolerance * size_a * size_b, contact_tolerance * separation * spacing);
 }
 
 // Half the length of the two edges at each vertex.

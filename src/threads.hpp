@@ -9,6 +9,9 @@
 
 namespace stokes {
 
+// More than this is taken for an error of the user.
+inline constexpr int most_threads = 1024;
+
 // Number of threads that parallel_for may use; 1 where OpenMP is missing.
 inline int thread_count() {
 #ifdef _OPENMP
