@@ -37,7 +37,7 @@ help:
 	@echo 'make verify           compare the results that are there, without running anything'
 	@echo 'make figures          draw the figures of the paper from the results (gnuplot)'
 	@echo 'make paper            the report, with its figures, tables and numbers, from the results (gnuplot, LaTeX)'
-	@echo 'make movies           moving pictures of two suspensions, minutes (gnuplot)'
+	@echo 'make movies           moving pictures of three suspensions, minutes (gnuplot)'
 	@echo 'make deps-figures     install gnuplot and LaTeX where they are missing; nothing else needs them'
 	@echo 'make all              build everything'
 	@echo 'make bench            time the kernels, the multipole method and the solver'
@@ -201,7 +201,7 @@ paper: $(BUILD)/verify $(BUILD)/report $(RESULTS)/bench/bench.csv
 	@rm -f $(RESULTS)/report/report.pdf
 	@$(MAKE) -k --no-print-directory -f paper/Makefile paper
 movies: $(BUILD)/simulate
-	@$(MAKE) --no-print-directory -f paper/Makefile movies
+	@$(MAKE) -k --no-print-directory -f paper/Makefile movies
 
 # --- timings: nothing of them is compared -----------------------------------------------------------------
 $(RESULTS)/bench/bench.csv: $(BUILD)/bench
