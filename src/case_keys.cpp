@@ -3,6 +3,9 @@
 #include <limits>
 #include <type_traits>
 
+#include "text.hpp"
+#include "threads.hpp"
+
 namespace stokes {
 
 namespace {
@@ -187,7 +190,7 @@ const std::vector<CaseKey>& case_keys() {
       optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid"),
       optional("vtk", &Case::vtk, "OUTPUT/vtk/step_NUMBER.vtk for ParaView at every output_every-th step and the end"),
       optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
-      optional("threads", &Case::threads, "all", "at most 1024"),
+      optional("threads", &Case::threads, "all", concat("at most ", most_threads)),
       optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time"),
   };
   return table;

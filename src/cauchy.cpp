@@ -59,13 +59,13 @@ Complex winding(const Curve& curve, Side side) {
 }
 
 // p_k over Sum_k p_k, or on the exterior side, where the rule is applied to zeta f, which tends to a constant at
-// infinity, over Sum_k p_k - winding. Both divided by the largest p, of the nearest node.
+// infinity, over Sum_k p_k - winding. Both divided by p of the nearest node, which may be infinite.
 void barycentric_weights(const Curve& curve, Complex winding, Complex z, const PoleTerms& terms,
                          Eigen::Ref<ComplexVector> weight) {
   const Eigen::Index j = terms.nearest;
-  const Complex over_largest = quotient(curve.position[j] - z, curve.derivative[j]);
-  const Complex of_nearest = reciprocal(1.0 + (terms.others - winding) * over_largest);
-  weight = (over_largest * of_nearest) * terms.p;
+  const Complex over_nearest = quotient(curve.position[j] - z, curve.derivative[j]);
+  const Complex of_nearest = reciprocal(1.0 + (terms.others - winding) * over_nearest);
+  weight = (over_nearest * of_nearest) * terms.p;
   weight[j] = of_nearest;
 }
 
@@ -78,10 +78,10 @@ CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
   for (int k = 0; k < fine; ++k)
     for (int j = 0; j < fine; ++j)
       if (j != k) poles_[k] += quotient(fine_.derivative[j], fine_.position[k] - fine_.position[j]);
-  const ComplexVector unit = ComplexVector::Unit(n, 0), first = fourier_derivative(unit);
-  refine_ = matrix_of_map(fourier_upsample(unit, fine), n).transpose();
-  refine_derivative_ = matrix_of_map(fourier_upsample(first, fine), n).transpose();
-  refine_second_ = matrix_of_map(fourier_upsample(fourier_derivative(first), fine), n).transpose();
+  const ComplexVector unit = fourier_upsample(ComplexVector::Unit(n, 0), fine), first = fourier_derivative(unit);
+  refine_ = matrix_of_map(unit, n).transpose();
+  refine_derivative_ = matrix_of_map(first, n).transpose();
+  refine_second_ = matrix_of_map(fourier_derivative(first), n).transpose();
 }
 
 // From six fine spacings on the trapezoid rule itself is exact to round-off, exp(-12 pi). Nearer, boundary values v_j are
@@ -128,9 +128,9 @@ VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const
     const Eigen::Index i = close[r];
     direct.col(i) += direct_close.col(static_cast<Eigen::Index>(r));
     auto column = of_derivative.col(static_cast<Eigen::Index>(r)).array();
-    const auto distance = (z[i] - fine_.position.array()).conjugate();
-    of_value.col(i).array() += column * (distance * bend_.array() - fine_.derivative.array().conjugate() * slope_.array());
-    column *= distance * slope_.array();
+    const auto arm = (z[i] - fine_.position.array()).conjugate();
+    of_value.col(i).array() += column * (arm * bend_.array() - fine_.derivative.array().conjugate() * slope_.array());
+    column *= arm * slope_.array();
   }
   ComplexMatrix conjugate = product(refine_derivative_, of_value);
   const ComplexMatrix conjugate_close = product(refine_second_, of_derivative);

@@ -5,9 +5,9 @@
 //   phi = -(s/2) C[eta],   psi = (s/2) C[ conj(eta) + conj(zeta) eta' ],   eta' = eta_alpha/zeta_alpha,
 // and phi' = -(s/2) C[eta'], so that u = phi - z conj(phi') - conj(psi) becomes
 //   u = -(s/2) ( C[eta] + conj(C[conj(eta)]) - conj(C[conj(z - zeta) eta']) ),
-// in which the near-cancellation of z conj(phi') with psi is already done. The boundary values of Cauchy
-// integrals are linear maps computed once per shape; at a target they are continued by barycentric
-// rational interpolation. Pressure and velocity gradient: close_flow.hpp.
+// in which the near-cancellation of z conj(phi') with psi is already done. Boundary values of the Cauchy integrals are
+// continued to a target by barycentric rational interpolation, both in one sum over the nodes. Pressure and velocity
+// gradient: close_flow.hpp.
 #pragma once
 
 #include <vector>
@@ -29,11 +29,12 @@ class CloseEvaluation {
  public:
   // `curve` relative to its centre 0, which must lie inside it. `upsampling` is the factor by which
   // the density is oversampled, since its products with the curve have a larger bandwidth: 2 up to
-  // aspect ratio 3, 3 beyond, gives spectral accuracy in the density alone. Cost and memory O(upsampling^2 N^2).
+  // aspect ratio 3, 3 beyond, gives spectral accuracy in the density alone. Cost O(upsampling^2 N^2), memory
+  // O(upsampling N^2).
   CloseEvaluation(const Curve& curve, Side side, int upsampling);
 
   // Rows of the velocity at targets z (same frame as the curve) in the fluid or on the curve. Cost
-  // O(upsampling^2 N^2) per target.
+  // O(upsampling N^2) per target.
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 
  private:

@@ -35,8 +35,8 @@ std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) 
   return nodes;
 }
 
-// What passes between two boundaries, C = P Q^T but for singular values below `negligible`: Q has the right singular
-// vectors, from C^T C = L L^T by a Cholesky factorisation that pivots and ends early.
+// What passes between two boundaries, C = P Q^T but for singular values below `negligible`. Q, or P where C has more columns
+// than rows, has the singular vectors, from C^T C = L L^T by a Cholesky factorisation that pivots and ends early.
 struct Coupling {
   Eigen::MatrixXf P, Q;
 };
@@ -52,7 +52,8 @@ Coupling coupling(const Matrix& C) {
   Matrix L(C.cols(), C.cols());
   Vector left = gram.diagonal();
   Eigen::Index k = 0, pivot = 0;
-  for (; k < C.cols() && left.maxCoeff(&pivot) > 0.1 * negligible * negligible; ++k) {
+  for (; k < C.cols() && left.sum() > negligible * negligible; ++k) {
+    left.maxCoeff(&pivot);
     L.col(k) = (gram.col(pivot) - L.leftCols(k) * L.row(pivot).head(k).transpose()) / std::sqrt(left[pivot]);
     left -= L.col(k).cwiseAbs2();
   }
@@ -135,8 +136,8 @@ std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const BoundarySe
   for (std::size_t k = 0; k < p.part.size(); ++k)
     d_j.segment<2>(2 * static_cast<Eigen::Index>(k)) = own.segment<2>(2 * (set.first[p.j] + p.part[k])).cast<float>();
   const Eigen::VectorXf from_i = p.Q_j.transpose() * d_i;
-  const Eigen::VectorXf s = p.Q_i.transpose() * d_j - p.G * from_i;
-  return {-(p.A * s).cast<double>(), -(p.B * (from_i - p.H * s)).cast<double>()};
+  const Eigen::VectorXf b = p.Q_i.transpose() * d_j - p.G * from_i;
+  return {-(p.A * b).cast<double>(), -(p.B * (from_i - p.H * b)).cast<double>()};
 }
 
 }  // namespace stokes

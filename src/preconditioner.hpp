@@ -21,7 +21,8 @@ class Preconditioner {
   using BlockFunction = std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
   // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Of a large circle only the nodes beside
-  // the other member take part. Cost per pair O(N_i^2 N_j), N_i the smaller number of nodes.
+  // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), N_i being the smaller number of
+  // nodes and r that of fields that pass; without the second term where j is a circle.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
 
@@ -30,10 +31,11 @@ class Preconditioner {
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:
-  // Far fewer fields than nodes pass between the members: C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With A = D_i^-1 P_i and
-  // B = D_j^-1 P_j the pair's system D^-1 C z + z = d is z_i = d_i - A s, z_j = d_j - B t, and with G = Q_i^T B, H = Q_j^T A
-  //   s = Q_i^T z_j = (I - G H)^-1 (Q_i^T d_j - G Q_j^T d_i),  t = Q_j^T z_i = Q_j^T d_i - H s.
-  // A and H hold the factor (I - G H)^-1. In single precision, which halves what they cost to make and to apply.
+  // Far fewer fields than nodes pass between the members: C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With B = D_j^-1 P_j,
+  // G = Q_i^T B, K = I - G Q_j^T D_i^-1 P_i, A = D_i^-1 P_i K^-1 and H = Q_j^T A, the solution of the pair's system
+  // z + D^-1 C z = d is
+  //   z_i = d_i - A b,  z_j = d_j - B (Q_j^T d_i - H b),  b = Q_i^T d_j - G Q_j^T d_i.
+  // In single precision, which halves what they cost to make and to apply.
   struct Pair {
     int i, j;
     std::vector<int> part;  // nodes of j that take part

@@ -36,13 +36,11 @@ struct ParameterMap {
   double s, first, second;
 };
 
-double ratio(const NodeCluster& c) { return (c.density - 1.0) / (c.density + 1.0); }
-
 // Without the constant that makes s = 0 at alpha = 0.
 ParameterMap parameter_map(double alpha, const std::vector<NodeCluster>& clusters) {
   ParameterMap map{alpha, 1.0, 0.0};
   for (const NodeCluster& c : clusters) {
-    const double r = ratio(c), x = alpha - c.alpha, sine = std::sin(x), cosine = std::cos(x);
+    const double r = (c.density - 1.0) / (c.density + 1.0), x = alpha - c.alpha, sine = std::sin(x), cosine = std::cos(x);
     const double q = 1.0 - 2.0 * r * cosine + r * r, slope = (1.0 - r * r) / q;
     map.s += x + 2.0 * std::atan2(r * sine, 1.0 - r * cosine);
     map.first += slope;
@@ -75,13 +73,13 @@ std::vector<double> Shape::parameters(const Discretisation& nodes) {
     double low = alpha[k - 1], high = 2.0 * pi, x = std::min(low + spacing / map.first, high);
     for (int iteration = 0; iteration < 100; ++iteration) {
       map = parameter_map(x, nodes.clusters);
+      const double step = (s - map.s) / map.first, next = x + step;
+      if (std::abs(step) <= 1e-10) {  // what is left is of the order of its square
+        x = next;
+        break;
+      }
       (map.s < s ? low : high) = x;
-      const double step = (s - map.s) / map.first;
-      const double next = x + step > low && x + step < high ? x + step : 0.5 * (low + high);
-      // A step so small leaves its square.
-      const bool done = std::abs(next - x) <= 1e-10 && next == x + step;
-      x = next;
-      if (done) break;
+      x = next > low && next < high ? next : 0.5 * (low + high);
     }
     alpha[k] = x;
   }

@@ -39,8 +39,8 @@ struct StivOptions {
 
 // Finds the contact regions of one step from the poses at its start, those of two fixed bodies excepted, with
 //   value     = V, an area: negative, and exactly 0 (no constraint) where the polygons do not meet;
-//   tolerance = that of one vertex contact_tolerance of the separation deep, where the vertices of both bodies are closest, and
-//               at least 1e-12 r_a r_b, with the circumradii r of the two bodies, or the container's radius;
+//   tolerance = that of one vertex contact_tolerance of the separation deep, where the vertices of both bodies are
+//               closest, and at least 1e-12 r_a r_b, with the circumradii r of the bodies, or the container's radius;
 //   gradient  = dV by StivOptions::gradient, (vertex - centre) at the end of the step being the arm of angles;
 //   force     = gradient. The forces on the two bodies are opposite to the last bit. Their torques balance up
 //               to (P - Q)(end) x force, exactly once V = 0 with the contact at the end of the step.
