@@ -114,7 +114,7 @@ sanitize:
 GCOV ?= gcov
 coverage:
 	@rm -f $(BUILD)/coverage/*.gcda
-	$(MAKE) BUILD=$(BUILD)/coverage CXXFLAGS='-O1 --coverage' PORTABLE=1 test
+	-$(MAKE) BUILD=$(BUILD)/coverage CXXFLAGS='-O1 --coverage' PORTABLE=1 test
 	@$(GCOV) -t -b -m -r $(BUILD)/coverage/*.o 2>/dev/null | awk -f tests/coverage.awk
 
 # --- experiments: one process and one file a case -------------------------------------------------------
