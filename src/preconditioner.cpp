@@ -73,6 +73,9 @@ Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<Placed
   if (kind != PreconditionerKind::pair) return;
   pairs_.resize(pairs.size());
   parallel_for(static_cast<long>(pairs.size()), [&](long n) { pairs_[n] = prepared(pairs[n], block); });
+  pairs_of_.resize(boundaries.size());
+  for (std::size_t n = 0; n < pairs_.size(); ++n)
+    for (const int member : {pairs_[n].i, pairs_[n].j}) pairs_of_[member].push_back(static_cast<int>(n));
 }
 
 Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const BlockFunction& block) const {
@@ -90,14 +93,12 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
     p.B = -2.0f * P_j;  // the inverse of a circle's block but for a few smooth modes
   else
     p.B = j.shape->solve_own(P_j);
-  p.G = Q_i.transpose() * p.B;
-  p.H = Q_j.transpose() * p.A;
   p.Q_i = std::move(Q_i);
   p.Q_j = std::move(Q_j);
-  if (p.G.size() == 0) return p;
-  const Eigen::PartialPivLU<Eigen::MatrixXf> K((Eigen::MatrixXf::Identity(p.G.rows(), p.G.rows()) - p.G * p.H).transpose());
-  p.A = K.solve(p.A.transpose()).transpose().eval();
-  p.H = K.solve(p.H.transpose()).transpose().eval();
+  if (p.A.size() == 0) return p;
+  const Eigen::MatrixXf back = (p.Q_i.transpose() * p.B) * (p.Q_j.transpose() * p.A);
+  const Eigen::PartialPivLU<Eigen::MatrixXf> transposed((Eigen::MatrixXf::Identity(back.rows(), back.rows()) - back).transpose());
+  p.A = transposed.solve(p.A.transpose()).transpose().eval();
   return p;
 }
 
@@ -113,31 +114,36 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
     own.segment(first, count) = boundaries_[i].shape->solve_own(in.segment(first, count));
   });
   out = own;
-  std::vector<const Pair*> pairs;
-  for (const Pair& p : pairs_)
-    if (set.has(p.i) && set.has(p.j)) pairs.push_back(&p);
-  // Each pair's change goes to a place of its own and is added in the order of the pairs.
-  std::vector<std::pair<Vector, Vector>> changes(pairs.size());
-  parallel_for_large(static_cast<long>(pairs.size()), set.size(), [&](long n) {
-    changes[n] = change(*pairs[n], set, own);
+  if (pairs_.empty()) return;
+  std::vector<Change> changes(pairs_.size());
+  parallel_for_large(static_cast<long>(pairs_.size()), set.size(), [&](long n) {
+    if (set.has(pairs_[n].i) && set.has(pairs_[n].j)) changes[n] = change(pairs_[n], set, own);
   });
-  for (std::size_t n = 0; n < pairs.size(); ++n) {
-    const Pair& p = *pairs[n];
-    out.segment(2 * set.first[p.i], changes[n].first.size()) += changes[n].first;
-    for (std::size_t k = 0; k < p.part.size(); ++k)
-      out.segment<2>(2 * (set.first[p.j] + p.part[k])) += changes[n].second.segment<2>(2 * static_cast<Eigen::Index>(k));
-  }
+  parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long m) {
+    const int boundary = set.members[m];
+    for (const int n : pairs_of_[boundary]) {
+      const Pair& p = pairs_[n];
+      const Change& change = changes[n];
+      if (change.of_i.size() == 0) continue;
+      if (boundary == p.i) {
+        out.segment(2 * set.first[p.i], change.of_i.size()) += change.of_i.cast<double>();
+        continue;
+      }
+      for (std::size_t k = 0; k < p.part.size(); ++k)
+        out.segment<2>(2 * (set.first[p.j] + p.part[k])) += change.of_j.segment<2>(2 * static_cast<Eigen::Index>(k)).cast<double>();
+    }
+  });
 }
 
 // What solving a pair together adds to the solutions `own` of its members by themselves; of j at its nodes that take part.
-std::pair<Vector, Vector> Preconditioner::change(const Pair& p, const BoundarySet& set, const Vector& own) const {
+Preconditioner::Change Preconditioner::change(const Pair& p, const BoundarySet& set, const Vector& own) const {
   const Eigen::VectorXf d_i = own.segment(2 * set.first[p.i], 2 * boundaries_[p.i].size()).cast<float>();
   Eigen::VectorXf d_j(2 * static_cast<Eigen::Index>(p.part.size()));
   for (std::size_t k = 0; k < p.part.size(); ++k)
     d_j.segment<2>(2 * static_cast<Eigen::Index>(k)) = own.segment<2>(2 * (set.first[p.j] + p.part[k])).cast<float>();
-  const Eigen::VectorXf from_i = p.Q_j.transpose() * d_i;
-  const Eigen::VectorXf b = p.Q_i.transpose() * d_j - p.G * from_i;
-  return {-(p.A * b).cast<double>(), -(p.B * (from_i - p.H * b)).cast<double>()};
+  const Eigen::VectorXf at_j = d_j - p.B * (p.Q_j.transpose() * d_i);
+  const Eigen::VectorXf of_i = -(p.A * (p.Q_i.transpose() * at_j));
+  return {of_i, -(p.B * (p.Q_j.transpose() * (d_i + of_i)))};
 }
 
 }  // namespace stokes
