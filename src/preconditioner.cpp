@@ -97,7 +97,8 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
   p.Q_j = std::move(Q_j);
   if (p.A.size() == 0) return p;
   const Eigen::MatrixXf back = (p.Q_i.transpose() * p.B) * (p.Q_j.transpose() * p.A);
-  const Eigen::PartialPivLU<Eigen::MatrixXf> transposed((Eigen::MatrixXf::Identity(back.rows(), back.rows()) - back).transpose());
+  const auto identity = Eigen::MatrixXf::Identity(back.rows(), back.rows());
+  const Eigen::PartialPivLU<Eigen::MatrixXf> transposed((identity - back).transpose());
   p.A = transposed.solve(p.A.transpose()).transpose().eval();
   return p;
 }
@@ -130,7 +131,8 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
         continue;
       }
       for (std::size_t k = 0; k < p.part.size(); ++k)
-        out.segment<2>(2 * (set.first[p.j] + p.part[k])) += change.of_j.segment<2>(2 * static_cast<Eigen::Index>(k)).cast<double>();
+        out.segment<2>(2 * (set.first[p.j] + p.part[k])) +=
+            change.of_j.segment<2>(2 * static_cast<Eigen::Index>(k)).cast<double>();
     }
   });
 }

@@ -18,11 +18,12 @@ enum class PreconditionerKind {
 class Preconditioner {
  public:
   // The operator's block between nodes of two boundaries, densities in their frames: 2 rows x 2 columns.
-  using BlockFunction = std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
+  using BlockFunction =
+      std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
   // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Of a large circle only the nodes beside
-  // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), N_i being the smaller number of
-  // nodes and r that of fields that pass; without the second term where j is a circle.
+  // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), N_i being the smaller number of nodes and r that of
+  // fields that pass; without the second term where j is a circle.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
 
@@ -31,8 +32,8 @@ class Preconditioner {
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:
-  // Far fewer fields than nodes pass between the members, C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With Y = D_j^-1 C_ji = B Q_j^T
-  // and A = D_i^-1 P_i (I - Q_i^T Y D_i^-1 P_i)^-1 the pair's system z + D^-1 C z = d has the solution
+  // Far fewer fields than nodes pass between the members, C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With
+  // Y = D_j^-1 C_ji = B Q_j^T and A = D_i^-1 P_i (I - Q_i^T Y D_i^-1 P_i)^-1 the solution of z + D^-1 C z = d is
   //   z_i = d_i - A Q_i^T (d_j - Y d_i),  z_j = d_j - Y z_i.
   // In single precision, which halves what they cost to make and to apply.
   struct Pair {
