@@ -36,7 +36,8 @@ std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) 
 }
 
 // What passes between two boundaries, C = P Q^T but for singular values below `negligible`. Q, or P where C has more columns
-// than rows, has the singular vectors, from C^T C = L L^T by a Cholesky factorisation that pivots and ends early.
+// than rows, has the singular vectors, at least one, be it zero: from C^T C = L L^T by a Cholesky factorisation that
+// pivots and ends early.
 struct Coupling {
   Eigen::MatrixXf P, Q;
 };
@@ -54,12 +55,14 @@ Coupling coupling(const Matrix& C) {
   Eigen::Index k = 0, pivot = 0;
   for (; k < C.cols() && left.sum() > negligible * negligible; ++k) {
     left.maxCoeff(&pivot);
-    L.col(k) = (gram.col(pivot) - L.leftCols(k) * L.row(pivot).head(k).transpose()) / std::sqrt(left[pivot]);
+    L.col(k) = gram.col(pivot);
+    if (k > 0) L.col(k).noalias() -= L.leftCols(k) * L.row(pivot).head(k).transpose();
+    L.col(k) /= std::sqrt(left[pivot]);
     left -= L.col(k).cwiseAbs2();
   }
-  if (k == 0) return {Eigen::MatrixXf(C.rows(), 0), Eigen::MatrixXf(C.cols(), 0)};
+  if (k == 0) return {Eigen::MatrixXf::Zero(C.rows(), 1), Eigen::MatrixXf::Zero(C.cols(), 1)};
   const Eigen::SelfAdjointEigenSolver<Matrix> squares(L.leftCols(k).transpose() * L.leftCols(k));
-  const Eigen::Index rank = (squares.eigenvalues().array() > negligible * negligible).count();
+  const Eigen::Index rank = std::max<Eigen::Index>(1, (squares.eigenvalues().array() > negligible * negligible).count());
   const Vector inverses = squares.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse();
   Eigen::MatrixXf Q = (L.leftCols(k) * (squares.eigenvectors().rightCols(rank) * inverses.asDiagonal())).cast<float>();
   return {C.cast<float>() * Q, std::move(Q)};
@@ -85,6 +88,7 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
   const PlacedShape &i = boundaries_[p.i], &j = boundaries_[p.j];
   const bool in_part = j.shape->is_circle() && j.shape->shape.a > large_circle * i.shape->shape.circumradius();
   p.part = in_part ? nodes_beside(i, j) : all_nodes(j);
+  if (p.part.empty()) return p;
   const std::vector<int> own = all_nodes(i);
   auto [P_i, Q_i] = coupling(block(p.i, own, p.j, p.part));
   auto [P_j, Q_j] = coupling(block(p.j, p.part, p.i, own));
@@ -95,7 +99,6 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
     p.B = j.shape->solve_own(P_j);
   p.Q_i = std::move(Q_i);
   p.Q_j = std::move(Q_j);
-  if (p.A.size() == 0) return p;
   const Eigen::MatrixXf back = (p.Q_i.transpose() * p.B) * (p.Q_j.transpose() * p.A);
   const auto identity = Eigen::MatrixXf::Identity(back.rows(), back.rows());
   const Eigen::PartialPivLU<Eigen::MatrixXf> transposed((identity - back).transpose());
@@ -118,7 +121,8 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
   if (pairs_.empty()) return;
   std::vector<Change> changes(pairs_.size());
   parallel_for_large(static_cast<long>(pairs_.size()), set.size(), [&](long n) {
-    if (set.has(pairs_[n].i) && set.has(pairs_[n].j)) changes[n] = change(pairs_[n], set, own);
+    const Pair& p = pairs_[n];
+    if (!p.part.empty() && set.has(p.i) && set.has(p.j)) changes[n] = change(p, set, own);
   });
   parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long m) {
     const int boundary = set.members[m];
