@@ -76,6 +76,7 @@ Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<Placed
   if (kind != PreconditionerKind::pair) return;
   pairs_.resize(pairs.size());
   parallel_for(static_cast<long>(pairs.size()), [&](long n) { pairs_[n] = prepared(pairs[n], block); });
+  std::erase_if(pairs_, [](const Pair& p) { return p.part.empty(); });
   pairs_of_.resize(boundaries.size());
   for (std::size_t n = 0; n < pairs_.size(); ++n)
     for (const int member : {pairs_[n].i, pairs_[n].j}) pairs_of_[member].push_back(static_cast<int>(n));
@@ -122,7 +123,7 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
   std::vector<Change> changes(pairs_.size());
   parallel_for_large(static_cast<long>(pairs_.size()), set.size(), [&](long n) {
     const Pair& p = pairs_[n];
-    if (!p.part.empty() && set.has(p.i) && set.has(p.j)) changes[n] = change(p, set, own);
+    if (set.has(p.i) && set.has(p.j)) changes[n] = change(p, set, own);
   });
   parallel_for_large(static_cast<long>(set.members.size()), set.size(), [&](long m) {
     const int boundary = set.members[m];
