@@ -25,10 +25,10 @@ inline std::string_view about(std::string_view program) {
       {"local_coupling", "Section 4.1, a claim: locally implicit stepping collides where globally implicit does not."},
       {"ncp_iterations", "Section 3.2: how many linear complementarity problems a contact takes."},
       {"table1_reversibility", "Table 1: the error of two discs in a shear flow that is reversed."},
-      {"table2_order_parameter", "Table 2: the mean order parameter over the second revolution, with its spread over\n"
-                                 "seeds."},
-      {"table3_effective_viscosity", "Table 3: the mean effective viscosity over the second revolution, with its spread\n"
-                                     "over seeds."},
+      {"table2_order_parameter", "Table 2: the mean order parameter over the second revolution from the paper's\n"
+                                 "starts, with its spread over other ones."},
+      {"table3_effective_viscosity", "Table 3: the mean effective viscosity over the second revolution from the paper's\n"
+                                     "starts, with its spread over other ones."},
       {"taylor_green_claims", "Section 4.2: what the text says of steps, collisions, preconditioning and iterations."},
   };
   for (const auto& [name, text] : programs)

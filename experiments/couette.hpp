@@ -1,6 +1,7 @@
 // Section 4.4: ellipses of length 0.75 between cylinders of radii 5, at rest, and 10, rotating.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -15,18 +16,32 @@ namespace stokes {
 inline constexpr double couette_rotation = 2.0, couette_revolution = pi;  // of the outer cylinder
 inline constexpr double couette_length = 0.75;                            // of every body
 
+inline constexpr double couette_separation = 0.0245;  // smallest allowed gap: a tenth of the spacing on the outer wall
+
 struct CouetteSuspension {
   int percent, lambda, count;  // area fraction, aspect ratio, bodies
+  std::uint32_t paper_seed;
+  double wall_clearance, body_clearance;  // at the start
+  int steps_a_revolution;
+  double revolutions = 2.0;  // after which the published curves end
 
   std::string name() const { return concat("phi", percent, "_lambda", lambda); }
   Shape shape() const { return {0.5 * couette_length, 0.5 * couette_length / lambda}; }
 };
 
-inline constexpr int couette_seeds = 9;  // at most, of each suspension
-
-// Those of Tables 2 and 3.
+// Those of Tables 2 and 3. The clearances are those with which the published starts come out, body by body (seed 1000) or
+// by their first order parameter and viscosity (seed 1001): half a body's length and about the spacing of the 32 nodes
+// on a body, .0522 (3:1) and .0486 (6:1); or the spacing of the 256 nodes on the outer wall, .245, and that of a disc, .0736.
 inline const std::vector<CouetteSuspension> couette_suspensions = {
-    {5, 1, 27}, {10, 1, 53}, {15, 1, 80}, {5, 3, 80}, {10, 3, 160}, {15, 3, 240}, {5, 6, 160}, {10, 6, 320}};
+    {5, 1, 27, 1001, 0.0736, 0.0245, 250},   {10, 1, 54, 1001, 0.245, 0.0736, 250},
+    {15, 1, 80, 1001, 0.245, 0.0736, 250},   {5, 3, 80, 1000, 0.375, 0.0518, 1000},
+    {10, 3, 160, 1000, 0.375, 0.0518, 1000}, {15, 3, 240, 1001, 0.245, 0.0518, 250, 1.88},
+    {5, 6, 160, 1000, 0.375, 0.0482, 1000},  {10, 6, 320, 1000, 0.375, 0.0482, 1000}};
+
+inline const CouetteSuspension& couette_suspension(const std::string& name) {
+  return *std::find_if(couette_suspensions.begin(), couette_suspensions.end(),
+                       [&](const CouetteSuspension& s) { return s.name() == name; });
+}
 
 inline Annulus couette_annulus(int wall_points = 1024) {
   Annulus annulus{5.0, 10.0, wall_points};
@@ -34,75 +49,83 @@ inline Annulus couette_annulus(int wall_points = 1024) {
   return annulus;
 }
 
-// The smallest allowed gap: a tenth of the largest spacing of nodes, that of the outer wall.
-inline constexpr double couette_separation = 0.0245;
-
-// As in the paper, distances from the axis and angles uniform; rejected are not only bodies that touch, but all that
-// are closer than the smallest allowed gap, which a single step could not part.
-inline Suspension couette_bodies(const CouetteSuspension& suspension, std::uint64_t seed) {
-  RandomPlacement placement{.shape = suspension.shape(), .count = suspension.count};
-  placement.min_distance = couette_separation;
-  placement.seed = seed;
-  return random_annulus(couette_annulus(), placement);
+// Distances from the axis and angles are uniform.
+inline PlacedBodies couette_placement(const CouetteSuspension& suspension, std::uint32_t seed) {
+  const Annulus annulus = couette_annulus();
+  return place_randomly({.shape = suspension.shape(),
+                         .count = suspension.count,
+                         .nearest = annulus.inner_radius,
+                         .farthest = annulus.outer_radius,
+                         .wall_clearance = suspension.wall_clearance,
+                         .body_clearance = suspension.body_clearance,
+                         .seed = seed},
+                        annulus);
 }
 
-// Finished runs are named suspension, "_seed", number, variant.
+inline constexpr int couette_seeds = 9;  // other starts, at most, of each suspension
+
+// One run: the paper's start, or another one by the same rule.
 struct CouetteCase {
   CouetteSuspension suspension;
-  int seed;
-  std::string variant;  // empty, or what differs
+  int seed = 0;         // 0: the paper's
+  std::string variant{};  // empty, or what differs
 
-  std::string name() const { return concat(suspension.name(), "_seed", seed, variant.empty() ? "" : "_", variant); }
+  std::string name() const {
+    const std::string start = seed == 0 ? "paper" : concat("seed", seed);
+    return concat(suspension.name(), "_", start, variant.empty() ? "" : "_", variant);
+  }
+  Suspension bodies() const {
+    const std::uint32_t number = seed == 0 ? suspension.paper_seed : static_cast<std::uint32_t>(seed);
+    const std::vector<Body> placed = couette_placement(suspension, number).bodies;
+    return between_walls({placed.begin(), placed.end()}, couette_annulus());
+  }
 };
 
-// Results of couette_run beside those of another experiment.
+// The results of couette_run beside those of another experiment.
 inline Results couette_results(const Results& other) { return {other.folder().parent_path(), "couette_run"}; }
 
-// The runs of a suspension that are there, one for each seed.
-inline std::vector<std::string> finished_runs(const Results& runs, const CouetteSuspension& suspension) {
+// The runs from other starts of a suspension that are there.
+inline std::vector<std::string> finished_seeds(const Results& runs, const CouetteSuspension& suspension) {
   std::vector<std::string> names;
   for (int seed = 1; seed <= couette_seeds; ++seed)
     if (const std::string name = CouetteCase{suspension, seed, ""}.name(); runs.has(name)) names.push_back(name);
   return names;
 }
 
-// A number of the runs with different starts of one suspension.
-struct SeedSpread {
-  int seeds = 0;
-  double mean = std::nan(""), minimum = std::nan(""), maximum = std::nan("");
-};
-
-inline SeedSpread over_seeds(const Results& runs, const CouetteSuspension& suspension, const std::string& quantity) {
-  SeedSpread spread;
-  double sum = 0.0;
-  for (const std::string& name : finished_runs(runs, suspension)) {
-    const double value = runs.quantity(name, quantity);
-    spread.minimum = std::fmin(spread.minimum, value), spread.maximum = std::fmax(spread.maximum, value);
-    sum += value;
-    ++spread.seeds;
-  }
-  if (spread.seeds > 0) spread.mean = sum / spread.seeds;
-  return spread;
+// The same, the run from the paper's start first.
+inline std::vector<std::string> finished_runs(const Results& runs, const CouetteSuspension& suspension) {
+  std::vector<std::string> names = finished_seeds(runs, suspension);
+  if (const std::string name = CouetteCase{suspension}.name(); runs.has(name)) names.insert(names.begin(), name);
+  return names;
 }
 
-// A table of the paper from the means over the second revolution: table.csv, and for `verify` one file a suspension and
-// a further one where there are at least three seeds, whose spread then says something.
+// A mean over the second revolution from the paper's start; NaN if that run is not there.
+inline double from_paper_start(const Results& runs, const CouetteSuspension& suspension, const std::string& quantity) {
+  const std::string name = CouetteCase{suspension}.name();
+  return runs.has(name) ? runs.quantity(name, quantity) : std::nan("");
+}
+
+// A table of the paper, of means over the second revolution: table.csv, with the spread over other starts, and for
+// `verify` one file a suspension.
 inline void collect_table(const Results& results, const std::string& quantity, bool with_discs) {
-  constexpr int enough = 3;
   const Results runs = couette_results(results);
   const std::string experiment = results.folder().filename().string();
   std::vector<std::vector<double>> rows;
   for (const CouetteSuspension& s : couette_suspensions) {
     if (s.lambda == 1 && !with_discs) continue;
-    const SeedSpread spread = over_seeds(runs, s, quantity);
-    const double published = published_value(experiment, s.name(), "mean");
-    rows.push_back({static_cast<double>(s.percent), static_cast<double>(s.lambda), static_cast<double>(spread.seeds),
-                    spread.mean, spread.minimum, spread.maximum, published});
-    if (spread.seeds > 0) results.write(s.name(), {{"seeds", static_cast<double>(spread.seeds)}, {"mean", spread.mean}});
-    if (spread.seeds >= enough)
-      results.write(s.name() + "_spread", {{"minimum", spread.minimum}, {"maximum", spread.maximum}});
+    const double mean = from_paper_start(runs, s, quantity);
+    double sum = 0.0, minimum = std::nan(""), maximum = std::nan("");
+    const std::vector<std::string> seeds = finished_seeds(runs, s);
+    for (const std::string& name : seeds) {
+      const double value = runs.quantity(name, quantity);
+      sum += value, minimum = std::fmin(minimum, value), maximum = std::fmax(maximum, value);
+    }
+    const double count = static_cast<double>(seeds.size());
+    rows.push_back({static_cast<double>(s.percent), static_cast<double>(s.lambda),
+                    published_value(experiment, s.name(), "mean"), mean, count, sum / count, minimum, maximum});
+    if (!std::isnan(mean)) results.write(s.name(), {{"mean", mean}});
   }
-  results.write("table", {"phi", "lambda", "seeds", "mean", "minimum", "maximum", "published"}, rows);
+  results.write("table", {"phi", "lambda", "published", "mean", "seeds", "mean_of_seeds", "minimum", "maximum"}, rows);
 }
 
 }  // namespace stokes

@@ -1,9 +1,11 @@
 // Section 4.4: one suspension between rotating cylinders for two revolutions of the outer one: order parameter,
-// effective viscosity, stress, contacts. Cases phi<percent>_lambda<aspect ratio>_seed<k>, and variants of some:
-// _stiv (interference volumes with balanced clusters), _halfstep, _points64, and the short _quick.
+// effective viscosity, stress, contacts. Cases phi<percent>_lambda<aspect ratio>_paper, from the paper's start, and
+// _seed<k>, from other starts by the same rule; and variants of some: _halfstep, _quarterstep, _points64, _stiv
+// (interference volumes with balanced clusters) and the short _quick.
 //
 // The folder of a case holds a case file and its bodies, which `simulate` reads too, and the results of the run; an
-// interrupted run goes on from its checkpoint. <case>_series.csv has one row a step, <case>.csv the means.
+// interrupted run goes on from its checkpoint. <case>_series.csv has one row a step, <case>.csv the means over the second
+// revolution and the values where the published curves were read.
 
 #include <cmath>
 
@@ -14,20 +16,26 @@ namespace {
 
 using namespace stokes;
 
+// Revolutions at which the published curves were read.
+const std::vector<double> curve_places = {0.0, 0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
+
 std::vector<CouetteCase> all_cases() {
   std::vector<CouetteCase> cases;
   for (const CouetteSuspension& s : couette_suspensions)
-    for (int seed = 1; seed <= couette_seeds; ++seed) cases.push_back({s, seed, ""});
-  for (const char* variant : {"stiv", "halfstep", "points64", "quick"}) cases.push_back({{5, 3, 80}, 1, variant});
+    for (int seed = 0; seed <= couette_seeds; ++seed) cases.push_back({s, seed, ""});
+  for (const char* variant : {"stiv", "halfstep", "points64", "quick"})
+    cases.push_back({couette_suspension("phi5_lambda3"), 0, variant});
+  for (const char* variant : {"halfstep", "quarterstep"}) cases.push_back({couette_suspension("phi10_lambda1"), 0, variant});
   return cases;
 }
 
 Case case_of(const CouetteCase& chosen) {
   Case c = case_between(couette_annulus());
   c.points_per_body = chosen.variant == "points64" ? 64 : 32;
-  c.time_step = couette_revolution / (chosen.suspension.lambda == 1 ? 500 : 1000);
+  c.time_step = couette_revolution / chosen.suspension.steps_a_revolution;
   if (chosen.variant == "halfstep") c.time_step /= 2.0;
-  c.end_time = (chosen.variant == "quick" ? 0.02 : 2.0) * couette_revolution;
+  if (chosen.variant == "quarterstep") c.time_step /= 4.0;
+  c.end_time = (chosen.variant == "quick" ? 0.02 : chosen.suspension.revolutions) * couette_revolution;
   c.min_separation_length = couette_separation;
   c.contact = chosen.variant == "stiv" ? ContactModel::stiv : ContactModel::gap;
   c.lcp_matrix = LcpMatrix::near;
@@ -56,6 +64,12 @@ struct Window {
   }
 };
 
+// That of the step nearest to a time; NaN after the end.
+double value_at(double t, const std::vector<double>& time, const std::vector<double>& values) {
+  const auto after = std::upper_bound(time.begin(), time.end(), t + 0.5 * time[1]);
+  return after == time.begin() || t > time.back() + 0.5 * time[1] ? std::nan("") : values[after - time.begin() - 1];
+}
+
 void summarise(const CouetteCase& chosen, const RunSummary& run, const Results& results) {
   const Table steps = read_csv(results.folder() / chosen.name() / "steps.csv");
   const std::vector<std::string> columns = {"order_parameter", "effective_viscosity", "contacts", "min_gap",
@@ -77,33 +91,34 @@ void summarise(const CouetteCase& chosen, const RunSummary& run, const Results& 
   const std::vector<double> inner = values("inner_torque"), outer = values("outer_torque");
   std::vector<double> unbalanced;
   for (std::size_t k = 0; k < inner.size(); ++k) unbalanced.push_back(std::abs(inner[k] + outer[k]) / std::abs(inner[k]));
-  results.write(chosen.name(),
-                {{"order_parameter_start", values("order_parameter")[0]},
-                 {"order_parameter", second.mean(values("order_parameter"))},
-                 {"smallest_order_parameter", second.largest(values("order_parameter"), -1.0)},
-                 {"effective_viscosity", second.mean(values("effective_viscosity"))},
-                 {"largest_effective_viscosity", second.largest(values("effective_viscosity"))},
-                 {"smallest_effective_viscosity", second.largest(values("effective_viscosity"), -1.0)},
-                 {"stresslet_shear", second.mean(values("stresslet_shear"))},
-                 {"stresslet_normal_difference", second.mean(values("stresslet_normal_difference"))},
-                 {"contact_shear", second.mean(values("contact_shear"))},
-                 {"contact_normal_difference", second.mean(values("contact_normal_difference"))},
-                 {"contacts", second.mean(values("contacts"))},
-                 {"smallest_gap_over_separation", Window{time, 0.5 * time[1]}.largest(values("min_gap"), -1.0) / couette_separation},
-                 {"torque_imbalance", all.largest(unbalanced)},
-                 {"ncp_iterations_per_step", all.mean(values("ncp_iterations"))},
-                 {"largest_ncp_iterations", all.largest(values("ncp_iterations"))},
-                 {"gmres_iterations_per_step", all.mean(values("gmres_iterations"))},
-                 {"stokes_solves_per_step", all.mean(values("stokes_solves"))},
-                 {"steps", static_cast<double>(run.steps)}},
-                {{"seed", format_number(chosen.seed)}, {"bodies", format_number(chosen.suspension.count)}});
+  Quantities row = {{"order_parameter", second.mean(values("order_parameter"))},
+                    {"smallest_order_parameter", second.largest(values("order_parameter"), -1.0)},
+                    {"effective_viscosity", second.mean(values("effective_viscosity"))},
+                    {"largest_effective_viscosity", second.largest(values("effective_viscosity"))},
+                    {"smallest_effective_viscosity", second.largest(values("effective_viscosity"), -1.0)},
+                    {"stresslet_shear", second.mean(values("stresslet_shear"))},
+                    {"stresslet_normal_difference", second.mean(values("stresslet_normal_difference"))},
+                    {"contact_shear", second.mean(values("contact_shear"))},
+                    {"contact_normal_difference", second.mean(values("contact_normal_difference"))},
+                    {"contacts", second.mean(values("contacts"))},
+                    {"smallest_gap_over_separation",
+                     Window{time, 0.5 * time[1]}.largest(values("min_gap"), -1.0) / couette_separation},
+                    {"torque_imbalance", all.largest(unbalanced)},
+                    {"ncp_iterations_per_step", all.mean(values("ncp_iterations"))},
+                    {"largest_ncp_iterations", all.largest(values("ncp_iterations"))},
+                    {"gmres_iterations_per_step", all.mean(values("gmres_iterations"))},
+                    {"stokes_solves_per_step", all.mean(values("stokes_solves"))},
+                    {"steps", static_cast<double>(run.steps)}};
+  for (const char* quantity : {"order_parameter", "effective_viscosity"})
+    for (const double place : curve_places)
+      row.push_back({concat(quantity, "_at_", place), value_at(place * couette_revolution, time, values(quantity))});
+  results.write(chosen.name(), row, {{"bodies", format_number(chosen.suspension.count)}});
 }
 
 void run(const std::string& name, const Results& results) {
   const std::vector<CouetteCase> cases = all_cases();
   const CouetteCase& chosen = *std::find_if(cases.begin(), cases.end(), [&](const CouetteCase& c) { return c.name() == name; });
-  const Suspension bodies = couette_bodies(chosen.suspension, static_cast<std::uint64_t>(chosen.seed));
-  const RunSummary summary = simulate_case(write_case(name, case_of(chosen), bodies, results), name);
+  const RunSummary summary = simulate_case(write_case(name, case_of(chosen), chosen.bodies(), results), name);
   summarise(chosen, summary, results);
 }
 

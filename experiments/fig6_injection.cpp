@@ -28,21 +28,12 @@ std::vector<InjectionCase> all_cases() {
     all.push_back({name, {}});
     return all.back().parameters;
   };
-  for (const int seed : {1, 2, 3}) add(concat("seed", seed)).seed = seed;
+  for (const int seed : {1, 2, 3}) add(concat("seed", seed)).seed = static_cast<std::uint32_t>(seed);
   add("seed1_stiv").contact = ContactModel::stiv;
   add("seed1_wall64").wall_points = 64;
   add("seed1_dt0.01").time_step = 0.01;
   for (const char* separation : {"0.2", "0.5", "1", "2.5", "3"})
     add(concat("delta", separation, "h")).separation_over_h = *parse_number(separation);
-  const auto add_near = [&](const std::string& name, double separation) -> Injection& {
-    Injection& near = add(name);
-    near.outermost = 5.0 - injection_disc.a;
-    near.least_distance_over_h = near.separation_over_h = separation;
-    return near;
-  };
-  add_near("near0.2h", 0.2), add_near("near0.5h", 0.5), add_near("near1h", 1.0);
-  add_near("near0.2h_stiv", 0.2).contact = ContactModel::stiv;
-  add_near("near0.2h_plain", 0.2).refine = Refine::none;
   for (const char* step : {"0.02", "0.04", "0.08"}) {
     Injection& free = add(concat("free_dt", step));
     free.contact = ContactModel::none;

@@ -45,36 +45,31 @@ void run_single_body(const std::string&, const Results& results) {
   results.write("orbit", row);
 }
 
-// claims.csv: S of the first seeds, by suspension, against what the text says.
+// claims.csv: S from the paper's starts against what the text says.
 void collect(const Results& results) {
   const Results runs = couette_results(results);
-  Quantities row;
-  const auto note = [&](const std::string& name, double value) {
-    if (!std::isnan(value)) row.push_back({name, value});
-  };
-  double slowest_rise = 0.0, least_excess = std::nan(""), least = std::nan(""), start = 0.0;
+  double slowest_rise = 0.0, least_excess = std::nan(""), least = std::nan("");
   for (const CouetteSuspension& s : couette_suspensions) {
+    const std::string name = CouetteCase{s}.name();
     if (s.lambda == 1) continue;
+    if (!runs.has(name)) return;
     const double single = (s.lambda - 1.0) / (s.lambda + 1.0);
-    for (const std::string& name : finished_runs(runs, s)) {
-      const Table series = read_csv(runs.path(name + "_series"));
-      const std::vector<double> time = series.numbers("revolutions"), S = series.numbers("order_parameter");
-      std::size_t risen = 0;
-      while (risen < S.size() && !(S[risen] > single)) ++risen;
-      slowest_rise = std::max(slowest_rise, risen < S.size() ? time[risen] : std::numeric_limits<double>::infinity());
-      start = std::max(start, std::abs(S[0]) * std::sqrt(2.0 * s.count));
-      least_excess = std::fmin(least_excess, runs.quantity(name, "order_parameter") - single);
-      least = std::fmin(least, runs.quantity(name, "smallest_order_parameter"));
-    }
+    const Table series = read_csv(runs.path(name + "_series"));
+    const std::vector<double> time = series.numbers("revolutions"), S = series.numbers("order_parameter");
+    std::size_t risen = 0;
+    while (risen < S.size() && !(S[risen] > single)) ++risen;
+    slowest_rise = std::max(slowest_rise, risen < S.size() ? time[risen] : std::numeric_limits<double>::infinity());
+    least_excess = std::fmin(least_excess, runs.quantity(name, "order_parameter") - single);
+    least = std::fmin(least, runs.quantity(name, "smallest_order_parameter"));
   }
-  if (std::isnan(least)) return;
-  note("largest_start_over_deviation", start);
-  note("slowest_rise_revolutions", slowest_rise);
-  note("least_excess_over_single_body", least_excess);
-  note("smallest_in_second_revolution", least);
+  Quantities row = {{"slowest_rise_revolutions", slowest_rise},
+                    {"least_excess_over_single_body", least_excess},
+                    {"smallest_in_second_revolution", least}};
   for (const int percent : {5, 10}) {
-    const auto mean = [&](int lambda) { return over_seeds(runs, {percent, lambda, 0}, "order_parameter").mean; };
-    note(concat("slender_excess_phi", percent), mean(6) - mean(3));
+    const auto mean = [&](int lambda) {
+      return from_paper_start(runs, couette_suspension(concat("phi", percent, "_lambda", lambda)), "order_parameter");
+    };
+    row.push_back({concat("slender_excess_phi", percent), mean(6) - mean(3)});
   }
   results.write("claims", row);
 }

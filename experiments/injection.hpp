@@ -15,10 +15,7 @@ inline constexpr int free_count = 50, ring_count = 41;  // bodies 0 to 49, then 
 inline double injection_spacing() { return injection_disc.perimeter() / injection_points; }
 
 struct Injection {
-  std::uint64_t seed = 1;
-  // Of the free discs at the start, from each other and from the ring.
-  double least_distance_over_h = 3.0;
-  double outermost = 4.5;  // no part of a free disc starts beyond
+  std::uint32_t seed = 1000;
   double separation_over_h = 2.0;
   ContactModel contact = ContactModel::gap;
   Refine refine = Refine::near;
@@ -33,18 +30,21 @@ inline Annulus injection_annulus(const Injection& parameters) {
 }
 
 inline Suspension injection_bodies(const Injection& parameters) {
+  const Annulus annulus = injection_annulus(parameters);
   const Body fixed{injection_disc, {}, 0.0, 0.0, true};
-  Suspension fixed_ones;
-  for (const Body& body : ring(fixed, ring_count, 5.0)) fixed_ones.push_back(body);
-  RandomPlacement placement{.shape = injection_disc, .count = free_count};
-  placement.inner_radius = 1.0 + injection_disc.a, placement.outer_radius = parameters.outermost - injection_disc.a;
-  placement.density = RadialDensity::uniform_area;
-  placement.min_distance = parameters.least_distance_over_h * injection_spacing();
-  placement.seed = parameters.seed;
+  const std::vector<Body> held = ring(fixed, ring_count, 5.0);
+  const PlacedBodies placed = place_randomly({.shape = injection_disc,
+                                              .count = free_count,
+                                              .nearest = 0.75,
+                                              .farthest = 4.75,
+                                              .wall_clearance = injection_disc.a,
+                                              .body_clearance = injection_spacing(),
+                                              .seed = parameters.seed},
+                                             annulus, held);
   Suspension bodies;
-  for (const Body& body : random_bodies(placement, fixed_ones)) bodies.push_back(body);
-  bodies.insert(bodies.end(), fixed_ones.begin(), fixed_ones.end());
-  return between_walls(std::move(bodies), injection_annulus(parameters));
+  bodies.assign(placed.bodies.begin(), placed.bodies.end());
+  bodies.insert(bodies.end(), held.begin(), held.end());
+  return between_walls(std::move(bodies), annulus);
 }
 
 inline Case injection_case(const Injection& parameters) {

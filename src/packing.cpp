@@ -1,7 +1,6 @@
 #include "packing.hpp"
 
 #include <cmath>
-#include <random>
 
 #include "container_gap.hpp"
 #include "gap.hpp"
@@ -11,68 +10,55 @@ namespace stokes {
 
 namespace {
 
-// The standard library's distributions differ from one implementation to the next, its generators do not.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : generator_(seed) {}
+// Braces draw in the order in which they are written.
+Body random_body(UniformRandom& random, const RandomPlacement& placement) {
+  const double u[3] = {random(), random(), random()};
+  const double distance = placement.nearest + (placement.farthest - placement.nearest) * u[0];
+  return {placement.shape, {std::polar(distance, 2.0 * pi * u[1]), 2.0 * pi * u[2]}, {}, {}};
+}
 
-  // Uniform in [0, 1).
-  double uniform() { return static_cast<double>(generator_() >> 11) * 0x1p-53; }
-
-  Body body(const RandomPlacement& placement) {
-    const double low = placement.inner_radius, high = placement.outer_radius, part = uniform();
-    const double r = placement.density == RadialDensity::uniform_radius
-                         ? low + part * (high - low)
-                         : std::sqrt(low * low + part * (high - low) * (high + low));
-    const double polar_angle = 2.0 * pi * uniform(), angle = 2.0 * pi * uniform();
-    return {placement.shape, {std::polar(r, polar_angle), angle}, {}, {}};
-  }
-
- private:
-  std::mt19937_64 generator_;
-};
-
-bool apart(const Body& body, const std::vector<Body>& others, double distance) {
+bool clear_of(const Body& body, const std::vector<Body>& others, double clearance) {
   for (const Body& other : others) {
-    const double reach = body.shape.circumradius() + other.shape.circumradius() + distance;
+    const double reach = body.shape.circumradius() + other.shape.circumradius() + clearance;
     if (std::norm(body.pose.centre - other.pose.centre) > reach * reach) continue;
-    if (!(gap(body, other).value > distance)) return false;
+    if (!(gap(body, other).value > clearance)) return false;
   }
   return true;
 }
 
 }  // namespace
 
-std::vector<Body> random_bodies(const RandomPlacement& placement, const Suspension& surroundings) {
-  if (!(placement.inner_radius >= 0.0 && placement.outer_radius >= placement.inner_radius)) {
-    throw InputError(concat("random placement: the centres cannot lie between the radii ", placement.inner_radius,
-                            " and ", placement.outer_radius, "; give 0 <= inner_radius <= outer_radius."));
-  }
-  Random random(placement.seed);
-  std::vector<Body> bodies;
-  while (static_cast<int>(bodies.size()) < placement.count) {
-    bool placed = false;
-    for (int tries = 0; tries < placement.max_tries && !placed; ++tries) {
-      const Body body = random.body(placement);
-      const double distance = placement.min_distance;
-      placed = apart(body, bodies, distance) && apart(body, surroundings, distance) &&
-               (!surroundings.container || gap(body, *surroundings.container).value > distance);
-      if (placed) bodies.push_back(body);
-    }
-    if (placed) continue;
-    throw NumericalError(concat("random placement: after ", bodies.size(), " of ", placement.count,
-                                " bodies no place was found for another one in ", placement.max_tries,
-                                " tries (min_distance = ", placement.min_distance, ", seed = ", placement.seed,
-                                "); try another seed, fewer or smaller bodies or a smaller min_distance."));
-  }
-  return bodies;
+double UniformRandom::operator()() {
+  const std::uint32_t high = generator_() >> 5, low = generator_() >> 6;
+  return (high * 0x1p26 + low) * 0x1p-53;
 }
 
-Suspension random_annulus(const Annulus& annulus, RandomPlacement placement) {
-  placement.inner_radius = annulus.inner_radius;
-  placement.outer_radius = annulus.outer_radius;
-  const std::vector<Body> bodies = random_bodies(placement, between_walls({}, annulus));
-  return between_walls({bodies.begin(), bodies.end()}, annulus);
+PlacedBodies place_randomly(const RandomPlacement& placement, const Annulus& annulus, const std::vector<Body>& held) {
+  if (!(placement.nearest >= 0.0 && placement.farthest >= placement.nearest)) {
+    throw InputError(concat("random placement: the centres cannot lie between the distances ", placement.nearest, " and ",
+                            placement.farthest, " from the axis; give 0 <= nearest <= farthest."));
+  }
+  const std::vector<Body> inner = {inner_wall(annulus)};
+  const Container outer = outer_wall(annulus);
+  UniformRandom random(placement.seed);
+  PlacedBodies placed;
+  int tries = 0, of_this_body = 0;
+  while (static_cast<int>(placed.bodies.size()) < placement.count) {
+    if (of_this_body++ == placement.max_tries)
+      throw NumericalError(concat("random placement: after ", placed.bodies.size(), " of ", placement.count,
+                                  " bodies no place was found for another one in ", placement.max_tries,
+                                  " tries (body_clearance = ", placement.body_clearance, ", wall_clearance = ",
+                                  placement.wall_clearance, ", seed = ", placement.seed,
+                                  "); try another seed, fewer or smaller bodies or smaller clearances."));
+    const Body body = random_body(random, placement);
+    ++tries;
+    if (!clear_of(body, inner, placement.wall_clearance) || !(gap(body, outer).value > placement.wall_clearance) ||
+        !clear_of(body, held, placement.body_clearance) || !clear_of(body, placed.bodies, placement.body_clearance))
+      continue;
+    placed.bodies.push_back(body);
+    placed.tries = tries, of_this_body = 0;
+  }
+  return placed;
 }
 
 std::vector<Body> ring(const Body& body, int count, double radius) {

@@ -1,40 +1,47 @@
-// Bodies at random places, none too close to another or to a wall.
+// Bodies at random places between two concentric walls, by the rule that made the paper's starts.
+//
+// Each try draws three numbers u1, u2, u3, uniform in [0, 1), for one body: its centre is at the distance
+// nearest + (farthest - nearest) u1 from the axis and at the polar angle 2 pi u2, its own angle is 2 pi u3 (drawn for
+// discs, too). The try is rejected when the body is too close to a wall or to a body placed before.
 #pragma once
 
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "annulus.hpp"
 
 namespace stokes {
 
-// How the distance r of a body's centre from the origin is distributed.
-enum class RadialDensity {
-  uniform_radius,  // r uniform: the number of bodies per area falls like 1/r
-  uniform_area,    // r^2 uniform: equally many bodies per area
+// The 32-bit Mersenne Twister with doubles of 53 random bits, u = ((x >> 5) 2^26 + (y >> 6)) / 2^53 of two successive
+// outputs x and y: MATLAB's rng(seed) and rand. The same bits with every compiler.
+class UniformRandom {
+ public:
+  explicit UniformRandom(std::uint32_t seed) : generator_(seed) {}
+  double operator()();  // in [0, 1)
+
+ private:
+  std::mt19937 generator_;
 };
 
-// Equal ellipses (discs) with centres between two circles around the origin. Polar angle and orientation are
-// uniform.
 struct RandomPlacement {
   Shape shape;
   int count = 0;
-  double inner_radius = 0.0, outer_radius = 0.0;  // of the centres
-  RadialDensity density = RadialDensity::uniform_radius;
-  double min_distance = 0.0;  // between two bodies, and between a body and a wall; touching is not apart
-  std::uint64_t seed = 0;
-  int max_tries = 100000;     // for one body
+  double nearest = 0.0, farthest = 0.0;  // distance of a centre from the axis
+  double wall_clearance = 0.0;  // smallest gap to a wall; it must be larger than this
+  double body_clearance = 0.0;  // smallest gap to another body, a held one included; it must be larger than this
+  std::uint32_t seed = 0;
+  int max_tries = 100000;  // for one body
 };
 
-// Places the bodies one after the other, each tried until it is farther than min_distance from those placed
-// before, from the bodies and walls of `surroundings` and from its container. The same for the same seed on
-// every machine, up to the rounding of its arithmetic. Cost: the tries times the number of bodies there.
-// InputError for radii out of order, NumericalError when max_tries did not find a place for a body.
-std::vector<Body> random_bodies(const RandomPlacement& placement, const Suspension& surroundings = {});
+struct PlacedBodies {
+  std::vector<Body> bodies;  // in the order of placing
+  int tries = 0;             // up to the last body placed
+};
 
-// Random bodies between the walls of an annulus: placement.inner_radius and outer_radius are set to those of
-// the walls, as in the paper, so that next to a wall only bodies along it find a place.
-Suspension random_annulus(const Annulus& annulus, RandomPlacement placement);
+// Places the bodies of `placement` between the walls, clear of the bodies `held` there. Cost: the tries times the number
+// of bodies. InputError unless 0 <= nearest <= farthest; NumericalError when max_tries found no place for a body.
+PlacedBodies place_randomly(const RandomPlacement& placement, const Annulus& annulus, const std::vector<Body>& held = {});
 
 // `count` copies of a body, their centres equally spaced on a circle around the origin, the first on the
 // positive x axis, each turned with its polar angle.

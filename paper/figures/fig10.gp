@@ -1,5 +1,5 @@
-# Figure 10: effective viscosity: raw (faint) and smoothed (solid), first seed; markers: published means over the second
-# revolution, with its range.
+# Figure 10: effective viscosity from the paper's starts: raw (faint) and smoothed (solid); open markers: the published
+# curves where they were read.
 width = 17; height = 6.2
 load "paper/figures/style.gp"
 columns = 3.0
@@ -11,10 +11,11 @@ set xlabel "revolutions of the outer cylinder" offset 0,0.5
 set key top right samplen 1
 set bmargin at screen 0.17
 set tmargin at screen 0.97
-run(phi, lambda) = sprintf("%s/fig10_effective_viscosity/phi%d_lambda%d_seed1.csv", results, phi, lambda)
+run(phi, lambda) = sprintf("%s/fig10_effective_viscosity/phi%d_lambda%d_paper.csv", results, phi, lambda)
 colour(phi, lambda) = tint(lambda_colour(lambda), phi)
 faint(phi, lambda) = colour(phi, lambda) + 0xb0000000
-mean(phi, lambda) = column("phi") == phi && column("lambda") == lambda ? 1.5 : NaN
+published_at(phi, lambda) = sprintf("f10-%d-%d-", phi, lambda)
+place(start) = strstrt(strcol("id"), start) == 1 ? real(substr(strcol("id"), strlen(start) + 1, -1)) : NaN
 array lambdas[3] = [1, 3, 6]
 
 set multiplot
@@ -31,9 +32,9 @@ do for [k = 1:3] {
        for [phi in fractions] run(int(phi), lambda) \
                 using "revolutions":"smoothed" \
                 with lines linewidth 1.6 linecolor rgb colour(int(phi), lambda) title "φ = " . phi . " %", \
-       for [phi in fractions] results . "/table3_effective_viscosity/table.csv" \
-                using (mean(int(phi), lambda)):"published":(0.5) \
-                with xerrorbars pointtype 6 pointsize 0.5 linewidth 0.7 linecolor rgb published \
-                title (phi eq "5" ? "published mean" : "")
+       for [phi in fractions] reference . "/fig10_effective_viscosity.csv" \
+                using (place(published_at(int(phi), lambda))):"value" \
+                with points pointtype 6 pointsize 0.6 linewidth 1 linecolor rgb colour(int(phi), lambda) \
+                title (phi eq "5" ? "published" : "")
 }
 unset multiplot

@@ -12,7 +12,7 @@ do for [k = 1:4] {
   eval panel(k)
   set bmargin at screen 0.08
   set label 1 sprintf("φ = %d %%, λ = %d", phi[k], lambda[k]) at graph 0.5, -0.04 center
-  plot sprintf("%s/couette_run/phi%d_lambda%d_seed1/bodies.csv", results, phi[k], lambda[k]) \
+  plot sprintf("%s/couette_run/phi%d_lambda%d_paper/bodies.csv", results, phi[k], lambda[k]) \
            using "x":"y":(2 * column("a")):(2 * column("b")):(column("theta") * degrees) \
            with ellipses linecolor rgb lambda_colour(lambda[k])
 }
