@@ -149,7 +149,7 @@ TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
 
 # Section 4.4: the paper's start of each suspension, longest first, and SEEDS other ones.
 SEEDS              ?= 3
-COUETTE            = phi10_lambda6 phi15_lambda3 phi5_lambda6 phi10_lambda3 phi15_lambda1 phi10_lambda1 phi5_lambda3 phi5_lambda1
+COUETTE            = phi15_lambda3 phi10_lambda6 phi5_lambda6 phi10_lambda3 phi15_lambda1 phi10_lambda1 phi5_lambda3 phi5_lambda1
 COUETTE_CASES      = $(COUETTE:%=%_paper) phi10_lambda1_paper_halfstep phi10_lambda1_paper_quarterstep
 COUETTE_ALL_CASES  = $(foreach k,$(shell seq $(SEEDS)),$(COUETTE:%=%_seed$(k))) \
                      $(foreach v,points64 halfstep stiv,phi5_lambda3_paper_$(v))

@@ -22,7 +22,8 @@ constexpr int stiv_increments_after = 8;
 constexpr std::size_t extrapolation_points = 3;
 // Of LcpMatrix::near: the mobility across a small gap is 1e-3 and less of what each of the two flows in it is alone.
 constexpr double column_tolerance = 1e-6;
-constexpr int nearby_iterations = 8;
+// An iteration costs one solve, columns of the full mobility one for each contact: of about a hundred in dense suspensions.
+constexpr int nearby_iterations = 24;
 constexpr double finest = 4.0;  // largest fineness of clusters
 constexpr int fine_steps = 50;  // that clusters stay fine, until coarser ones are tried again
 
