@@ -10,7 +10,7 @@ namespace stokes {
 inline std::string_view about(std::string_view program) {
   constexpr std::pair<std::string_view, std::string_view> programs[] = {
       {"adaptive_steps", "Section 3.3: the runs of Table 1 at delta = 3h with fixed and with adaptive steps."},
-      {"close_evaluation", "Section 3.1: errors of the near-singular quadrature beside a disc and a 3:1 ellipse."},
+      {"close_evaluation", "Section 3.1: errors of the near-singular quadrature and of the trapezoid rule beside a circle."},
       {"contact_variants", "Figures 2 and 3 with every variant of the contact algorithm."},
       {"couette_run", "Section 4.4: a suspension between rotating cylinders for two revolutions; the runs behind\n"
                       "Figures 8 to 10 and Tables 2 and 3."},

@@ -93,11 +93,14 @@ class Inputs {
     return value ? tex_number(*value, format) : missing_mark;
   }
 
-  // The value of the reference row with this id, as it is written there.
+  // The value of the reference row with this id, with the digits that are written there.
   std::string published(const std::string& id) {
     for (const Table& t : reference_)
       for (int row = 0; row < static_cast<int>(t.rows.size()); ++row)
-        if (t.text(row, t.column("id")) == id) return t.text(row, t.column("value"));
+        if (t.text(row, t.column("id")) == id) {
+          const std::string& value = t.text(row, t.column("value"));
+          return parse_number(value) ? tex_decimal(value) : value;
+        }
     problem(concat("no reference value with the id ", quote(id)));
     return missing_mark;
   }

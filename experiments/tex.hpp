@@ -69,6 +69,13 @@ inline std::string tex_prose(std::string_view text) {
   return code ? result + "}" : result;
 }
 
+// A decimal number in math mode; the exponent of one like 1.5e-3 becomes a power of ten.
+inline std::string tex_decimal(const std::string& text) {
+  const std::size_t e = text.find('e');
+  if (e == std::string::npos) return concat("$", text, "$");
+  return concat("$", text.substr(0, e), "\\times10^{", std::stoi(text.substr(e + 1)), "}$");
+}
+
 // A number by a format like 3f, 2g or 1e: digits, and the letter of printf. Powers of ten are written as such; not a
 // number is a dash. InputError for another format.
 inline std::string tex_number(double value, std::string_view format) {
@@ -79,10 +86,7 @@ inline std::string tex_number(double value, std::string_view format) {
   if (std::isinf(value)) return value > 0.0 ? "$\\infty$" : "$-\\infty$";
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, concat("%.", format, "").c_str(), value);
-  const std::string text = buffer;
-  const std::size_t e = text.find('e');
-  if (e == std::string::npos) return concat("$", text, "$");
-  return concat("$", text.substr(0, e), "\\times10^{", static_cast<int>(std::lround(std::stod(text.substr(e + 1)))), "}$");
+  return tex_decimal(buffer);
 }
 
 // The arguments of every \command{..}.. in a document, `count` of them each, in the order of their first appearance;

@@ -11,7 +11,7 @@ namespace stokes {
 
 namespace {
 
-// In units of h: the first point on the normal is the first beyond the near zone.
+// In units of h. It exceeds 1 so that every point on the normal lies beyond the near zone.
 constexpr double normal_spacing = 1.1;
 
 Curve upsampled(const Curve& curve) {
@@ -23,16 +23,24 @@ Curve upsampled(const Curve& curve) {
   return Curve::through(fourier_upsample(curve.position, n * factor));
 }
 
-// Weights at t of the values at 0, 1, ..., Count-1 in their interpolating polynomial.
-template <int Count>
-std::array<double, Count> lagrange_weights(double t) {
-  std::array<double, Count> weight;
-  for (int i = 0; i < Count; ++i) {
+using Seven = std::array<double, 7>;
+constexpr Seven zero_to_six{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0};
+
+// Weights at t of the values at `places` in their interpolating polynomial.
+Seven lagrange_weights(const Seven& places, double t) {
+  Seven weight;
+  for (std::size_t i = 0; i < weight.size(); ++i) {
     weight[i] = 1.0;
-    for (int j = 0; j < Count; ++j)
-      if (j != i) weight[i] *= (t - j) / (i - j);
+    for (std::size_t j = 0; j < weight.size(); ++j)
+      if (j != i) weight[i] *= (t - places[j]) / (places[i] - places[j]);
   }
   return weight;
+}
+
+// Places of the values on the normal at x0. Unit is the spacing, the target stands at t and the origin beside `origin`.
+Seven places_on_normal(NearRule rule, double t, double origin) {
+  if (rule == NearRule::from_boundary) return zero_to_six;
+  return {0.0, t + 1.0, t + 2.0, t + 3.0, t + 4.0, t + 5.0, origin};
 }
 
 // Rows of -1/2 I + D at the nodes: the trapezoid rule with the diagonal limit -s kappa/(2 pi) t (t . eta).
@@ -49,8 +57,9 @@ VelocityRows boundary_limit(const Curve& curve, Side side) {
 
 }  // namespace
 
-InterpolationEvaluation::InterpolationEvaluation(const Curve& curve, Side side)
+InterpolationEvaluation::InterpolationEvaluation(const Curve& curve, Side side, NearRule rule)
     : side_(side),
+      rule_(rule),
       curve_(curve),
       fine_(upsampled(curve)),
       h_(curve.length() / curve.size()),
@@ -99,16 +108,18 @@ InterpolationEvaluation::Stencil InterpolationEvaluation::stencil(Complex z) con
   // The normal into the fluid is (z - x0)/|z - x0| without the division that fails on the curve.
   const double s = side_ == Side::interior ? 1.0 : -1.0;
   const Complex into_fluid = s * perp(foot.derivative) / std::abs(foot.derivative);
-  const double spacing = normal_spacing * h_;
-  const auto across = lagrange_weights<order>(dot(z - foot.position, into_fluid) / spacing);
+  const double spacing = normal_spacing * h_, t = dot(z - foot.position, into_fluid) / spacing;
+  const Seven places = places_on_normal(rule_, t, -dot(foot.position, into_fluid) / spacing);
+  const Seven across = lagrange_weights(places, t);
   const double node = foot.alpha * curve_.size() / (2.0 * pi);
   const int first_node = static_cast<int>(std::lround(node)) - order / 2;
-  const auto along = lagrange_weights<order>(node - first_node);
+  const Seven along = lagrange_weights(zero_to_six, node - first_node);
 
-  Stencil near{first_node, along, std::vector<Complex>(order - 1), Vector(order - 1)};
-  for (int k = 0; k < order; ++k) near.node_weight[k] *= across[0];
-  for (int k = 1; k < order; ++k) {
-    near.points[k - 1] = foot.position + k * spacing * into_fluid;
+  const int points = rule_ == NearRule::from_boundary ? order - 1 : order - 2;  // the value beside the origin is 0
+  Stencil near{first_node, along, std::vector<Complex>(points), Vector(points)};
+  for (double& weight : near.node_weight) weight *= across[0];
+  for (int k = 1; k <= points; ++k) {
+    near.points[k - 1] = foot.position + places[k] * spacing * into_fluid;
     near.point_weight[k - 1] = across[k];
   }
   return near;

@@ -43,6 +43,7 @@ TEST_CASE("numbers are written with the digits asked for") {
   CHECK(tex_number(-0.00123, "1e") == "$-1.2\\times10^{-3}$");
   CHECK(tex_number(1e-14, "2g") == "$1\\times10^{-14}$");
   CHECK(tex_number(30.0, "0f") == "$30$");
+  CHECK(tex_decimal("4.80e-4") == "$4.80\\times10^{-4}$");
   CHECK(tex_number(std::nan(""), "2f") == "--");
   CHECK(tex_number(-HUGE_VAL, "2f") == "$-\\infty$");
   for (const char* format : {"", "f", "10f", "2x", "%2f"}) CHECK_THROWS_AS(tex_number(1.0, format), InputError);
@@ -67,7 +68,7 @@ TEST_CASE("a number comes from the first row, or from the one that is named") {
   CHECK(inputs.tex("run/first", "error", "2e") == "$1.23\\times10^{-3}$");
   CHECK(inputs.number("run/table[phi=5,lambda=3]", "mean") == 1.5);
   CHECK(inputs.tex("run/table[phi=10]", "mean", "1f") == "--");
-  CHECK(inputs.published("r-one") == "0.0200");
+  CHECK(inputs.published("r-one") == "$0.0200$");
   CHECK(inputs.problems().empty());
   CHECK_THROWS_AS(inputs.number("run/table[phi]", "mean"), InputError);
 }
