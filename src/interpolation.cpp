@@ -37,7 +37,8 @@ Seven lagrange_weights(const Seven& places, double t) {
   return weight;
 }
 
-// Places of the values on the normal at x0. Unit is the spacing, the target stands at t and the origin beside `origin`.
+// Places of the seven values along the normal at x0, in units of the spacing. The target stands at t, the foot of the
+// perpendicular from the origin at `origin`.
 Seven places_on_normal(NearRule rule, double t, double origin) {
   if (rule == NearRule::from_boundary) return zero_to_six;
   return {0.0, t + 1.0, t + 2.0, t + 3.0, t + 4.0, t + 5.0, origin};
@@ -66,9 +67,9 @@ InterpolationEvaluation::InterpolationEvaluation(const Curve& curve, Side side, 
       coefficients_(fourier_coefficients(curve.position)),
       limit_(boundary_limit(curve, side)) {}
 
-// Newton's method on |zeta(alpha) - z|^2 / 2 from the nearest fine node. The closest point is
-// within a fine step or so of it, which bounds the steps; where the second derivative is
-// not safely positive (z beyond a centre of curvature) the Gauss-Newton one replaces it.
+// Newton's method on |zeta(alpha) - z|^2 / 2 from the nearest fine node. The closest point lies within about a fine step
+// of that node, which limits the length of the steps. The second derivative may be small or negative if z lies beyond
+// a centre of curvature. The Gauss-Newton one, |zeta'|^2, replaces it there.
 InterpolationEvaluation::BoundaryPoint InterpolationEvaluation::closest_point(Complex z, int fine_node) const {
   const int n = curve_.size();
   const double longest_step = 2.0 * pi / fine_.size();
@@ -125,7 +126,7 @@ InterpolationEvaluation::Stencil InterpolationEvaluation::stencil(Complex z) con
   return near;
 }
 
-// The row over the nodes that acts on a density as `fine_row` acts on its upsampled values: the
+// The row over the N nodes that gives for a density what `fine_row` gives for its upsampled values. This is the
 // transpose of fourier_upsample.
 ComplexVector InterpolationEvaluation::restricted(const ComplexVector& fine_row) const {
   const Eigen::Index n = curve_.size(), fine = fine_row.size();
