@@ -63,7 +63,7 @@ double median(std::vector<double> values) {
 std::vector<GridPoint> flow_of(const Frame& frame, double driving, Contacts contacts) {
   std::vector<GridPoint> grid =
       flow_on_grid(frame.bodies, options_of(injection_case({}), frame.bodies).stepper, driving,
-                   contacts == Contacts::answered ? frame.contact : std::vector<Wrench>{}, view, grid_points);
+                   contacts == Contacts::answered ? frame.contact : std::vector<Wrench>{}, view, grid_points).points;
   if (contacts != Contacts::unanswered) return grid;
   for (int i = 0; i < free_count; ++i)
     for (GridPoint& point : grid)

@@ -36,12 +36,12 @@ bool in_fluid(const Suspension& bodies, Complex x) {
 
 }  // namespace
 
-std::vector<GridPoint> flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
-                                    const std::vector<Wrench>& contact, const Square& square, int points) {
-  std::vector<Wrench> wrenches;
+GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
+                      const std::vector<Wrench>& contact, const Square& square, int points) {
+  GridFlow grid;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Wrench more = contact.empty() ? Wrench{} : contact[i];
-    wrenches.push_back({bodies[i].force + more.force, bodies[i].torque + more.torque});
+    grid.wrenches.push_back({bodies[i].force + more.force, bodies[i].torque + more.torque});
   }
   ShapeCache shapes(options.near_singular);
   const std::vector<Discretisation> nodes = options.refine == Refine::near
@@ -49,19 +49,20 @@ std::vector<GridPoint> flow_on_grid(const Suspension& bodies, const StepperOptio
                                                 : equal_nodes(bodies, options.points_per_body);
   const StokesSystem system(bodies, nodes, shapes, options.stokes);
   const BackgroundFlow flow{options.flow.kind, driving * options.flow.rate, driving};
-  const StokesSolution solution = system.solve(flow, wrenches);
+  const StokesSolution solution = system.solve(flow, grid.wrenches);
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].fixed) grid.wrenches[i] = solution.reaction[i];
 
-  std::vector<GridPoint> grid;
   std::vector<Complex> fluid;
   for (int j = 0; j < points; ++j)
     for (int i = 0; i < points; ++i) {
       const Complex x = square.corner + square.side / (points - 1) * Complex(i, j);
-      grid.push_back({x, !in_fluid(bodies, x), {}});
-      if (!grid.back().inside) fluid.push_back(x);
+      grid.points.push_back({x, !in_fluid(bodies, x), {}});
+      if (!grid.points.back().inside) fluid.push_back(x);
     }
-  const std::vector<PointFlow> flows = system.flow(fluid, solution.density, flow, wrenches);
+  const std::vector<PointFlow> flows = system.flow(fluid, solution.density, flow, grid.wrenches);
   std::size_t next = 0;
-  for (GridPoint& point : grid)
+  for (GridPoint& point : grid.points)
     if (!point.inside) point.flow = flows[next++];
   return grid;
 }
@@ -69,7 +70,8 @@ std::vector<GridPoint> flow_on_grid(const Suspension& bodies, const StepperOptio
 void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
                   double driving, const std::vector<Wrench>& contact, int points) {
   std::string text = "x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside\n";
-  for (const GridPoint& point : flow_on_grid(bodies, options, driving, contact, square_around(bodies), points)) {
+  const GridFlow grid = flow_on_grid(bodies, options, driving, contact, square_around(bodies), points);
+  for (const GridPoint& point : grid.points) {
     std::vector<double> row{point.x.real(), point.x.imag()};
     if (point.inside) {
       row.resize(8, std::nan(""));

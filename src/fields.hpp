@@ -18,12 +18,17 @@ struct GridPoint {
   PointFlow flow;
 };
 
+struct GridFlow {
+  std::vector<GridPoint> points;  // row by row from below
+  std::vector<Wrench> wrenches;   // of each body on the fluid: given ones of free bodies, reactions of fixed ones
+};
+
 // Solves for the flow at the poses of `bodies`, everything that drives it multiplied by `driving` and `contact`
 // forces and torques on the bodies (one each; empty: none), and evaluates it at points x points points of the
-// square, its sides included, row by row from below. The pressure of a bounded flow has a free constant.
+// square, its sides included. The pressure of a bounded flow has a free constant.
 // NumericalError when GMRES fails.
-std::vector<GridPoint> flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
-                                    const std::vector<Wrench>& contact, const Square& square, int points);
+GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
+                      const std::vector<Wrench>& contact, const Square& square, int points);
 
 // Writes the flow on the square around the container or on the smallest square around the bodies with a body's length
 // to spare:

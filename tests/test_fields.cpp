@@ -14,7 +14,8 @@ TEST_CASE("flow_on_grid covers its square row by row and draws back what the wal
   annulus.inner_surface.source = annulus.outer_surface.source = pi;
   StepperOptions options;
   options.flow.kind = FlowKind::none;
-  const std::vector<GridPoint> grid = flow_on_grid(between_walls({}, annulus), options, -1.0, {}, {{-1.0, -2.0}, 12.0}, 25);
+  const std::vector<GridPoint> grid =
+      flow_on_grid(between_walls({}, annulus), options, -1.0, {}, {{-1.0, -2.0}, 12.0}, 25).points;
   REQUIRE(grid.size() == 25 * 25);
   CHECK(grid.front().x == Complex(-1.0, -2.0));
   CHECK(grid[1].x == Complex(-0.5, -2.0));
@@ -27,6 +28,26 @@ TEST_CASE("flow_on_grid covers its square row by row and draws back what the wal
     CHECK(std::abs(point.flow.velocity + 0.5 * point.x / r2) < 1e-9);
     CHECK(std::abs(stress(point.flow).xy - 2.0 * point.x.real() * point.x.imag() / (r2 * r2)) < 1e-8);
   }
+}
+
+TEST_CASE("flow_on_grid gives the wrenches on the fluid: those given to a free body, that of a wall beside a Couette flow") {
+  Annulus annulus{5.0, 10.0, 64};
+  annulus.outer_surface.angular_velocity = 2.0;
+  const Body free{{0.1, 0.1}, {{0.0, 7.0}, 0.0}, {1.0, -2.0}, 0.5};
+  const Suspension bodies = between_walls({free}, annulus);
+  StepperOptions options;
+  options.points_per_body = 32;
+  const auto wrenches = [&](double driving, const Wrench& contact) {
+    return flow_on_grid(bodies, options, driving, {contact, {{7.0, 7.0}, 7.0}}, {{6.0, 0.0}, 1.0}, 2).wrenches;
+  };
+  const std::vector<Wrench> loaded = wrenches(1.0, {{0.5, 0.0}, -0.25}), unloaded = wrenches(0.0, {{0.5, 0.0}, -0.25});
+  REQUIRE(loaded.size() == 2);
+  CHECK(loaded[0].force == Complex(1.5, -2.0));
+  CHECK(loaded[0].torque == 0.25);
+  // Without bodies u_theta = A r + B/r, B = -200/3, and the inner wall exerts the torque 4 pi B; a disc of this size
+  // changes it by the order of its area fraction, 1e-4.
+  CHECK(std::abs((loaded[1].torque - unloaded[1].torque) / (-4.0 * pi * 200.0 / 3.0) - 1.0) < 1e-3);
+  CHECK(unloaded[1].torque != 0.0);
 }
 
 TEST_CASE("simulate writes the Couette flow on a grid and balanced wall torques, the same for any number of threads") {
