@@ -142,9 +142,8 @@ TG_CONTINUED       = global_full_dt0.01 global_self_dt0.01 local_start_dt0.025 l
 TG_FREE            = $(foreach p,32 64,$(foreach t,0.0025 0.01 0.025,free_points$(p)_dt$(t))) \
                        $(foreach t,0.0025 0.01 0.025,free_points32_dt$(t)_near)
 TG_ITERATIONS      = $(foreach k,none block pair,cold_$(k) $(foreach t,1e-6 1e-8,extrapolated_$(k)_$(t))) points
-INJECTION_CASES    = seed1_dt0.01 seed1 seed1_stiv seed2 seed3 seed1_wall64 \
-                       $(foreach d,3 2.5 1 0.5 0.2,delta$(d)h) $(foreach t,0.02 0.04 0.08,free_dt$(t)) undisturbed quick
-STRESS_RUNS        = seed1 seed1_stiv delta2.5h
+INJECTION_CASES    = paper undisturbed
+INJECTION_ALL_CASES = paper_stiv paper_delta0.2h paper_delta0.3h paper_dt0.04 paper_dt0.02 paper_wall256 quick
 TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
 
 # Section 4.4: the paper's start of each suspension, longest first, and SEEDS other ones.
@@ -181,10 +180,10 @@ $(eval $(call experiment,couette_run,$(COUETTE_CASES),phi5_lambda3_paper_quick))
 $(eval $(call experiment,fig8_initial_configurations,$(COUETTE),$(COUETTE)))
 $(foreach t,$(COUETTE_TABLES),$(eval $(call experiment,$(t),$(if $(filter fig9%,$(t)),orbit),$(if $(filter fig9%,$(t)),orbit))))
 $(COUETTE_TABLES): couette_run
-$(eval $(call experiment,fig6_injection,$(INJECTION_CASES),quick undisturbed))
-$(eval $(call experiment,fig7_shear_stress,$(foreach r,$(STRESS_RUNS),$(r) $(r)_free $(r)_unanswered),))
+$(eval $(call experiment,fig6_injection,$(INJECTION_CASES),quick undisturbed,$(INJECTION_ALL_CASES)))
+$(eval $(call experiment,fig7_shear_stress,paper,))
 # Figure 7 is computed from the positions of Figure 6.
-$(foreach r,$(STRESS_RUNS),$(eval $(patsubst %,$(RESULTS)/fig7_shear_stress/%.csv,$(r) $(r)_free $(r)_unanswered): $(RESULTS)/fig6_injection/$(r).csv))
+$(RESULTS)/fig7_shear_stress/paper.csv: $(RESULTS)/fig6_injection/paper.csv
 $(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
 
 couette_cases:  # their names, for experiments/submit_couette.sh

@@ -18,7 +18,7 @@ inline std::string_view about(std::string_view program) {
       {"fig3_pathlines", "Figure 3: pathlines of two discs in shear from three heights."},
       {"fig4_taylor_green", "Figure 4: 48 ellipses in the Taylor-Green flow for three time steps."},
       {"fig6_injection", "Figures 5 and 6: fluid injected past 50 free and 41 fixed discs, and drawn back."},
-      {"fig7_shear_stress", "Figure 7: the shear stress of the fluid at six times of the injection."},
+      {"fig7_shear_stress", "Figure 7: the shear stress at six times of the injection, and what the paper plotted."},
       {"fig8_initial_configurations", "Figure 8: the suspensions between the cylinders at the start."},
       {"fig9_order_parameter", "Figure 9: the order parameter in time, from the runs of couette_run."},
       {"fig10_effective_viscosity", "Figure 10: the effective viscosity in time, from the runs of couette_run."},

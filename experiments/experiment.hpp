@@ -85,6 +85,12 @@ inline double published_value(const std::string& experiment, const std::string& 
   return std::nan("");
 }
 
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t n = values.size();
+  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+}
+
 struct Experiment {
   std::string name;
   std::vector<std::string> cases;

@@ -1,8 +1,13 @@
-// Figure 7: log10 |sigma_xy| at six times of a run of Figure 6, whose positions and contact forces are read from its
-// snapshots. Cases: those of fig6_injection that are shown; _free: the same positions without the contact forces;
-// _unanswered: that flow plus the Stokeslets of the contact forces, which no boundary answers to.
+// Figure 7: log10 |sigma_xy| at six times of the run of Figure 6 (its case `paper`), on the published grid of 100 x 100
+// points, of two fields:
+//   stress   of the flow;
+//   plotted  what the paper shows: the double layers of all boundaries, and Stokeslets and rotlets of the contact forces,
+//            each at the body that follows in the list, without those of fixed bodies.
+// In the paper's representation the flow is the double layers plus Stokeslets and rotlets of all forces and torques on the
+// fluid, at the centres of their own bodies. So the second field is the first plus point forces and torques at the centres.
+// Medians are over the fluid farther than 0.3 from the centres of the discs.
 
-#include "completion.hpp"
+#include "direct_fields.hpp"
 #include "experiment.hpp"
 #include "fields.hpp"
 #include "injection.hpp"
@@ -11,106 +16,79 @@ namespace {
 
 using namespace stokes;
 
-const std::vector<double> frame_times = {0.0, 2.0, 3.9, 4.1, 6.0, 8.0};
 constexpr Square view{{-8.0, -8.0}, 16.0};
-// Half of the side of the square in which the frame at t = 0, before any contact, has the published median.
-constexpr double narrow = 6.9;
-constexpr int grid_points = 161;
+constexpr int grid_points = 100;
+constexpr double least_distance = 0.3;  // from a disc's centre, of the points that the medians count
 
-enum class Contacts { answered, none, unanswered };
-
-struct Case {
-  std::string run;
-  Contacts contacts;
-};
-
-Case parse(const std::string& name) {
-  for (const auto& [suffix, contacts] : {std::pair("_free", Contacts::none), std::pair("_unanswered", Contacts::unanswered)})
-    if (name.ends_with(suffix)) return {name.substr(0, name.rfind('_')), contacts};
-  return {name, Contacts::answered};
-}
-
-struct Frame {
-  Suspension bodies;
-  std::vector<Wrench> contact;
-};
-
-Frame frame_at(double time, const Table& snapshots) {
-  Frame frame{injection_bodies({}), {}};
-  frame.contact.resize(frame.bodies.size());
-  const auto column = [&](const char* name) { return snapshots.numbers(name); };
-  const std::vector<double> t = column("time"), body = column("body"), x = column("x"), y = column("y");
-  const std::vector<double> angle = column("theta"), fx = column("force_x"), fy = column("force_y"), torque = column("torque");
-  std::size_t found = 0;
-  for (std::size_t row = 0; row < t.size(); ++row) {
-    if (std::abs(t[row] - time) > 1e-9) continue;
-    const auto i = static_cast<std::size_t>(body[row]);
-    frame.bodies.at(i).pose = {{x[row], y[row]}, angle[row]};
-    frame.contact.at(i) = {{fx[row], fy[row]}, torque[row]};
-    ++found;
+// sigma_xy of the second field less that of the first, on the grid: that of the contact forces and torques of free bodies at
+// the next body, less that of all forces and torques at their own bodies.
+std::vector<double> shear_stress_of_shift(const GridFlow& flow, const Suspension& bodies,
+                                          const std::vector<Wrench>& contact) {
+  PointArray targets, centres;
+  for (const GridPoint& point : flow.points) targets.x.push_back(point.x.real()), targets.y.push_back(point.x.imag());
+  const auto count = static_cast<Eigen::Index>(bodies.size());
+  ComplexVector force(count);
+  Vector torque(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    centres.x.push_back(bodies[i].pose.centre.real()), centres.y.push_back(bodies[i].pose.centre.imag());
+    const Wrench shifted = i > 0 && !bodies[i - 1].fixed ? contact[i - 1] : Wrench{};
+    force[i] = shifted.force - flow.wrenches[i].force;
+    torque[i] = shifted.torque - flow.wrenches[i].torque;
   }
-  if (found != frame.bodies.size())
-    throw InputError(concat(snapshots.file, ": ", found, " of ", frame.bodies.size(), " bodies at time ", time));
-  return frame;
+  FlowFields fields;
+  direct_fields(targets, centres, {.force = &force, .torque = &torque}, FlowOutput::gradient, fields);
+  std::vector<double> shear_stress;
+  for (Eigen::Index k = 0; k < fields.velocity_x.size(); ++k)
+    shear_stress.push_back(fields.velocity_x[k].imag() + fields.velocity_y[k].real());
+  return shear_stress;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
+bool is_counted(const GridPoint& point, const Suspension& bodies) {
+  return !point.inside && std::none_of(bodies.begin(), bodies.begin() + free_count + ring_count, [&](const Body& disc) {
+    return std::abs(point.x - disc.pose.centre) <= least_distance;
+  });
 }
-
-std::vector<GridPoint> flow_of(const Frame& frame, double driving, Contacts contacts) {
-  std::vector<GridPoint> grid =
-      flow_on_grid(frame.bodies, options_of(injection_case({}), frame.bodies).stepper, driving,
-                   contacts == Contacts::answered ? frame.contact : std::vector<Wrench>{}, view, grid_points).points;
-  if (contacts != Contacts::unanswered) return grid;
-  for (int i = 0; i < free_count; ++i)
-    for (GridPoint& point : grid)
-      if (!point.inside)
-        point.flow += completion_flow(frame.bodies[i].shape, frame.bodies[i].pose, frame.contact[i], point.x, 1.0);
-  return grid;
-}
-
-// Of the driving alone, u = Q/(2 pi) x/|x|^2 with Q = pi.
-double source_shear_stress(Complex x) { return -2.0 * x.real() * x.imag() / (std::norm(x) * std::norm(x)); }
 
 void run_case(const std::string& name, const Results& results) {
-  const auto [run, contacts] = parse(name);
-  const Table snapshots = read_csv(results.of("fig6_injection").path(run + "_snapshots"));
+  const RecordedRun run(results.of("fig6_injection").folder() / name);
+  const Injection parameters;
+  Suspension bodies = injection_bodies(parameters);
+  const StepperOptions options = options_of(injection_case(parameters), bodies).stepper;
+  const std::vector<std::size_t> states = run.states_at(stress_times);
+  if (states.size() != stress_times.size())
+    throw InputError(concat("the run ", quote(name), " of fig6_injection ends before t = ", stress_times.back()));
   Quantities row;
-  for (const double time : frame_times) {
-    const Frame frame = frame_at(time, snapshots);
-    double largest = 0.0;
-    for (int i = 0; i < free_count; ++i) largest = std::max(largest, std::abs(frame.contact[i].force));
-    std::vector<std::vector<double>> grid;
-    std::vector<double> fluid, fluid_narrow, source;
-    for (const GridPoint& point : flow_of(frame, time < Injection{}.reverse_at ? 1.0 : -1.0, contacts)) {
-      const double value = point.inside ? std::nan("") : std::log10(std::abs(stress(point.flow).xy));
-      grid.push_back({point.x.real(), point.x.imag(), value, point.inside ? 1.0 : 0.0});
-      if (point.inside) continue;
-      fluid.push_back(value);
-      source.push_back(std::log10(std::abs(source_shear_stress(point.x))));
-      if (std::abs(point.x.real()) <= narrow && std::abs(point.x.imag()) <= narrow) fluid_narrow.push_back(value);
+  for (std::size_t f = 0; f < states.size(); ++f) {
+    const double time = stress_times[f];
+    std::vector<Wrench> contact;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      bodies[i].pose = run.bodies()[states[f]][i].pose;
+      contact.push_back(run.bodies()[states[f]][i].contact);
     }
-    results.write(concat(name, "_t", time), {"x", "y", "log10_abs_sigma_xy", "inside"}, grid, {{"time", format_number(time)}});
-    row.push_back({concat("median_at_", time), median(fluid)});
-    row.push_back({concat("median_narrow_at_", time), median(fluid_narrow)});
-    row.push_back({concat("median_of_source_at_", time), median(source)});
-    row.push_back({concat("largest_contact_force_at_", time), largest});
+    const double driving = time < parameters.reverse_at ? 1.0 : -1.0;
+    const GridFlow flow = flow_on_grid(bodies, options, driving, contact, view, grid_points);
+    const std::vector<double> shift = shear_stress_of_shift(flow, bodies, contact);
+    std::vector<std::vector<double>> grid;
+    std::vector<double> stresses, plotted;
+    for (std::size_t k = 0; k < flow.points.size(); ++k) {
+      const GridPoint& point = flow.points[k];
+      const double sigma = point.inside ? std::nan("") : stress(point.flow).xy;
+      grid.push_back({point.x.real(), point.x.imag(), std::log10(std::abs(sigma)),
+                      std::log10(std::abs(sigma + shift[k]))});
+      if (!is_counted(point, bodies)) continue;
+      stresses.push_back(grid.back()[2]);
+      plotted.push_back(grid.back()[3]);
+    }
+    results.write(concat(name, "_t", time), {"x", "y", "log10_stress", "log10_plotted"}, grid,
+                  {{"time", format_number(time)}});
+    row.push_back({concat("stress_median_at_", time), median(stresses)});
+    row.push_back({concat("plotted_median_at_", time), median(plotted)});
   }
   results.write(name, row);
-}
-
-std::vector<std::string> cases() {
-  std::vector<std::string> names;
-  for (const char* run : {"seed1", "seed1_stiv", "delta2.5h"})
-    for (const char* suffix : {"", "_free", "_unanswered"}) names.push_back(concat(run, suffix));
-  return names;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_experiment({"fig7_shear_stress", cases(), run_case, [](const Results&) {}}, argc, argv);
+  return run_experiment({"fig7_shear_stress", {"paper"}, run_case, [](const Results&) {}}, argc, argv);
 }
