@@ -21,6 +21,6 @@ do for [k = 0:5] {
 set label "Q/(2πR_{out})" at 7.1, 8.9 left
 set label "Q/(2πR_{in})" at 0, -6.6 center
 set arrow from 0, -6.2 to 0.25, -0.75 nohead linewidth 0.6 front
-plot results . "/fig6_injection/seed1_snapshots.csv" \
+plot results . "/fig6_injection/paper_snapshots.csv" \
          using (disc_at(0)):"y":"radius":(column("fixed") == 1 ? fixed_colour : body_colour) \
          with circles linecolor rgb variable
