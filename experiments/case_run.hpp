@@ -19,15 +19,17 @@ inline Case case_between(const Annulus& annulus) {
   return c;
 }
 
-// Writes case.txt and bodies.csv, which `simulate` reads too, and returns the case that they make.
+// Writes case.txt and bodies.csv, which `simulate` reads too, and returns the case that they make. It replaces a run of
+// another case there, which an earlier version of the experiment has left.
 inline Case write_case(const std::string& name, Case c, const Suspension& bodies, const Results& results) {
   const std::filesystem::path folder = results.folder() / name, file = folder / "case.txt";
   c.bodies = "bodies.csv";
   c.output = folder.string();
   std::vector<std::string> settings = results.settings();
-  settings.push_back(concat("threads=", thread_count()));
+  settings.insert(settings.end(), {concat("threads=", thread_count()), "overwrite=yes"});
   const std::string text = format_case(c);
-  const Case checked = parse_case(text, file, settings);
+  Case checked = parse_case(text, file, settings);
+  checked.command = results.command();
   std::filesystem::create_directories(folder);
   write_file_atomically(file, text);
   write_file_atomically(checked.bodies_path(), format_bodies(bodies));

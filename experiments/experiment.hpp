@@ -19,6 +19,7 @@
 #include "about.hpp"
 #include "base.hpp"
 #include "csv.hpp"
+#include "output_folder.hpp"
 #include "run.hpp"
 #include "threads.hpp"
 #include "version.hpp"
@@ -30,9 +31,10 @@ using Quantities = std::vector<std::pair<std::string, double>>;
 
 class Results {
  public:
-  // `settings`: of the cases that are runs of simulate_case(), as its user gives them.
-  Results(const std::filesystem::path& root, const std::string& experiment, std::vector<std::string> settings = {})
-      : folder_(root / experiment), settings_(std::move(settings)) {
+  // `settings`: of the cases that are runs of simulate_case(), as its user gives them; `command` runs the program.
+  Results(const std::filesystem::path& root, const std::string& experiment, std::vector<std::string> settings = {},
+          std::string command = {})
+      : folder_(root / experiment), settings_(std::move(settings)), command_(std::move(command)) {
     std::filesystem::create_directories(folder_);
   }
 
@@ -40,6 +42,7 @@ class Results {
   std::filesystem::path path(const std::string& name) const { return folder_ / (name + ".csv"); }
   bool has(const std::string& name) const { return std::filesystem::exists(path(name)); }
   const std::vector<std::string>& settings() const { return settings_; }
+  const std::string& command() const { return command_; }
 
   // Writes <name>.csv as a whole: version, compiler and `parameters` as comment lines, then the rows.
   void write(const std::string& name, const std::vector<std::string>& header,
@@ -74,6 +77,7 @@ class Results {
  private:
   std::filesystem::path folder_;
   std::vector<std::string> settings_;
+  std::string command_;
 };
 
 // The value of a published number in reference_data/<experiment>.csv; NaN if there is none.
@@ -160,7 +164,7 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
     if (std::find(experiment.cases.begin(), experiment.cases.end(), name) == experiment.cases.end())
       throw InputError(concat("no case ", quote(name), "; did you mean ", nearest_name(name, experiment.cases), "?"));
     set_thread_count(threads);
-    experiment.run(name, Results(root, experiment.name, settings));
+    experiment.run(name, Results(root, experiment.name, settings, command_line({argv, argv + argc})));
     return 0;
   } catch (const Interruption& end) {
     std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), end.message.c_str());

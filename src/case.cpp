@@ -12,6 +12,9 @@ namespace stokes {
 
 namespace {
 
+// Keys on which no result depends.
+constexpr std::string_view without_effect[] = {"threads", "output", "overwrite", "checkpoint_every"};
+
 std::vector<std::string> key_names() {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) names.push_back(key.name);
@@ -195,7 +198,7 @@ double separation_length(const Case& parameters, const Suspension& bodies) {
 Comments describe(const Case& parameters) {
   Comments lines;
   for (const CaseKey& key : case_keys()) {
-    if (key.name == "threads" || key.name == "output" || key.name == "checkpoint_every") continue;
+    if (std::find(std::begin(without_effect), std::end(without_effect), key.name) != std::end(without_effect)) continue;
     if (!key.belongs_to(parameters.geometry)) continue;
     if (key.name == "min_separation" && parameters.min_separation_length) continue;
     lines.emplace_back(key.name, key.get(parameters));

@@ -23,6 +23,7 @@ enum class Geometry {
 
 struct Case {
   std::filesystem::path file;  // the case file; not a key
+  std::string command;         // that runs the case, for its record; not a key
 
   // Required.
   std::string bodies;             // CSV of the bodies, as written: see bodies_path()
@@ -61,6 +62,7 @@ struct Case {
   int output_every = 1;                         // steps
   std::vector<double> fields_at;                // times, increasing
   int field_points = 200;                       // on each side of the grid
+  bool overwrite = false;                       // results of another run in the output folder
   bool vtk = false;                             // a picture of every output step in OUTPUT/vtk
   double checkpoint_every = 60.0;               // seconds of wall time; 0: none at intervals
   std::optional<int> threads;                   // all cores if not given
@@ -85,11 +87,11 @@ Suspension parse_suspension(const Case& parameters, std::string_view content);
 // The smallest allowed distance between two bodies, in length units. Walls have no part in its unit h.
 double separation_length(const Case& parameters, const Suspension& bodies);
 
-// Every key of the case's geometry but `threads`, `output` and `checkpoint_every` (results are the same bytes
-// whatever these are) with its value, defaults included.
+// Every key of the case's geometry but `threads`, `output`, `overwrite` and `checkpoint_every` (results are the same
+// bytes whatever these are) with its value, defaults included.
 Comments describe(const Case& parameters);
 
-// The content of a case file that makes the same case again, but for `threads` and `checkpoint_every`.
+// The content of a case file that makes the same case again, but for `threads`, `overwrite` and `checkpoint_every`.
 std::string format_case(const Case& parameters);
 
 // What a user can write: every key with its default and values, and the columns of the bodies' file.

@@ -188,6 +188,7 @@ const std::vector<CaseKey>& case_keys() {
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
       optional("fields_at", &Case::fields_at, "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
       optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid"),
+      optional("overwrite", &Case::overwrite, "yes: replace the results of another run in the output folder"),
       optional("vtk", &Case::vtk, "OUTPUT/vtk/step_NUMBER.vtk for ParaView at every output_every-th step and the end"),
       optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
       optional("threads", &Case::threads, "all", concat("at most ", most_threads)),

@@ -24,13 +24,6 @@ std::vector<std::string> description_of(const Case& c, const Suspension& initial
   return lines;
 }
 
-// Fowler, Noll and Vo's hash, 64 bits, FNV-1a.
-std::uint64_t checksum(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return hash;
-}
-
 // One line each: its name and its numbers, groups of numbers after their count.
 class Writer {
  public:
@@ -240,8 +233,15 @@ Checkpoint read_state(Reader& reader) {
 
 }  // namespace
 
+std::uint64_t checksum(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
 CheckpointFile::CheckpointFile(const Case& c, const Suspension& initial)
-    : path_(std::filesystem::path(c.output) / "checkpoint"), description_(description_of(c, initial)) {}
+    : path_(std::filesystem::path(c.output) / "checkpoint"), overwrite_(c.overwrite),
+      description_(description_of(c, initial)) {}
 
 std::optional<Checkpoint> CheckpointFile::read() const {
   if (!std::filesystem::exists(path_)) return std::nullopt;
@@ -262,14 +262,15 @@ std::optional<Checkpoint> CheckpointFile::read() const {
     for (std::string& line : description) line = reader.line();
     Checkpoint checkpoint = read_state(reader);
     if (description == description_) return checkpoint;
-    if (checkpoint.stage == RunStage::failed) return std::nullopt;
+    if (checkpoint.stage == RunStage::failed || overwrite_) return std::nullopt;
     std::size_t k = 0;
     while (k < description.size() && k < description_.size() && description[k] == description_[k]) ++k;
     const auto at = [k](const std::vector<std::string>& lines) {
       return k < lines.size() ? quote(lines[k]) : std::string("no further body");
     };
     throw InputError(concat(name, ": the unfinished run there has ", at(description), " where this one has ",
-                            at(description_), "; undo the change to finish it, ", start_anew));
+                            at(description_), "; undo the change to finish it, replace it by ",
+                            "overwrite = yes, or choose another output."));
   } catch (const InputError&) {
     throw;
   } catch (const std::exception& error) {

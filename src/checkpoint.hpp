@@ -5,15 +5,20 @@
 // and a checksum. Replaced as a whole, so that one that was killed while it was written is the one before.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "case.hpp"
 #include "recorder.hpp"
 #include "simulation.hpp"
 
 namespace stokes {
+
+// Fowler, Noll and Vo's hash of 64 bits, FNV-1a.
+std::uint64_t checksum(std::string_view text);
 
 struct Checkpoint {
   RunState run;
@@ -29,8 +34,8 @@ class CheckpointFile {
   const std::filesystem::path& path() const { return path_; }
 
   // The checkpoint to go on from, if there is one. InputError for one of another case or other bodies, which
-  // says what differs, and for one that is damaged. That of another run that failed counts as none: its case
-  // had to be changed.
+  // says what differs, and for one that is damaged. That of another run counts as none if it failed, so that its case
+  // had to be changed, or if it may be overwritten.
   std::optional<Checkpoint> read() const;
 
   // NumericalError on a write error; the checkpoint before is then still there. Cost: about 160 bytes a node, and as
@@ -42,6 +47,7 @@ class CheckpointFile {
 
  private:
   std::filesystem::path path_;
+  bool overwrite_;
   std::vector<std::string> description_;
 };
 

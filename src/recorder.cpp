@@ -10,7 +10,7 @@ namespace stokes {
 
 namespace {
 
-constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.csv", *checkpoint_name = "checkpoint";
+constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.csv";
 
 const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x",  "y",  "theta",
                                                      "ux",   "uy",   "omega", "fx", "fy", "torque"};
@@ -63,7 +63,7 @@ std::string why_not_writable(const std::filesystem::path& folder) {
   if (status.type() == fs::file_type::none) return because(existing, concat("cannot be used: ", error.message()));
   if (!fs::is_directory(existing, error)) return because(existing, "is not a folder");
   if (access(existing.c_str(), W_OK | X_OK) != 0) return because(existing, "is not writable");
-  for (const char* name : {trajectory_name, steps_name, checkpoint_name}) {
+  for (const char* name : {trajectory_name, steps_name, "checkpoint", "run.txt", "case.txt", "bodies.csv"}) {
     const fs::path file = folder / name;
     const fs::file_type type = fs::status(file, error).type();
     if (type == fs::file_type::not_found) continue;

@@ -10,6 +10,7 @@
 #include "checkpoint.hpp"
 #include "fields.hpp"
 #include "neighbours.hpp"
+#include "output_folder.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
 #include "threads.hpp"
@@ -54,14 +55,10 @@ void catch_signals() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size is then a write error like a full disk
 }
 
-// Writes the flow of the first state at or after each of the times asked for. A run that goes on keeps the files of
-// earlier states.
+// Writes the flow of the first state at or after each of the times asked for, where its file is missing.
 class FieldTimes {
  public:
-  FieldTimes(const Case& c, const StepperOptions& options, bool goes_on) : case_(c), options_(options) {
-    for (const double time : c.fields_at)
-      if (!goes_on) std::filesystem::remove(path(time));
-  }
+  FieldTimes(const Case& c, const StepperOptions& options) : case_(c), options_(options) {}
 
   void write(const StepRecord& record) {
     const double slack = 1e-9 * case_.time_step;
@@ -156,13 +153,20 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   SimulationOptions options = options_of(c, bodies);
   if (c.threads) set_thread_count(*c.threads);
 
+  const FolderLock lock(c.output);
+  const RunRecord ran(c, bodies);
   const CheckpointFile file(c, bodies);
   const std::optional<Checkpoint> start = file.read();
+  if (!std::filesystem::exists(file.path())) ran.check_overwriting();  // what failed may be replaced, too
   Progress progress(c.end_time, start ? start->run.clock.time : 0.0, label);
-  if (!start) file.remove();  // of another run that failed, before its results
+  if (!start) {
+    file.remove();  // before the results that it belongs to
+    ran.remove_results();
+  }
+  ran.write();
   catch_signals();
   std::optional<VtkWriter> vtk;
-  if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every, start.has_value());
+  if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every);
   const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
   Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
                             : Recorder(c.output, c.output_every, columns);
@@ -175,7 +179,7 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   Checkpoints checkpoints(file, recorder, c.checkpoint_every);
   options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };
   bool warned = false;
-  FieldTimes fields(c, options.stepper, start.has_value());
+  FieldTimes fields(c, options.stepper);
   const auto write = [&](const StepRecord& record) {
     const Recorder::Position before = recorder.position();
     try {

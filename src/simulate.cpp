@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "output_folder.hpp"
 #include "run.hpp"
 
 namespace {
 
 using namespace stokes;
 
-int run(const std::vector<std::string>& arguments) {
-  const Case c = read_case(arguments[0], {arguments.begin() + 1, arguments.end()});
+int run(const std::vector<std::string>& arguments, const std::string& command) {
+  Case c = read_case(arguments[0], {arguments.begin() + 1, arguments.end()});
+  c.command = command;
   const RunSummary summary = simulate_case(c);
   std::printf("%ld steps, %ld rejected\n", summary.steps, summary.rejected);
   std::printf("preconditioner factorisations: %d (distinct shapes: %d)\n", summary.factorisations, summary.shapes);
@@ -30,7 +32,7 @@ int main(int argc, char** argv) {
     return arguments.empty() ? 2 : 0;
   }
   try {
-    return run(arguments);
+    return run(arguments, command_line({argv, argv + argc}));
   } catch (const Interruption& end) {
     std::fprintf(stderr, "simulate: %s\n", end.message.c_str());
     return 128 + end.signal;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <regex>
 
 #include "csv.hpp"
 #include "curve.hpp"
@@ -113,15 +112,8 @@ std::string vtk_file(const StepRecord& record, int outline_points) {
   return text;
 }
 
-VtkWriter::VtkWriter(const std::filesystem::path& folder, int output_every, bool goes_on)
-    : folder_(made_folder(folder)), output_every_(output_every) {
-  if (goes_on) return;
-  static const std::regex name("step_[0-9]{6,}\\.vtk(\\.tmp)?");
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder_))
-    if (std::regex_match(entry.path().filename().string(), name)) old.push_back(entry.path());
-  for (const std::filesystem::path& file : old) std::filesystem::remove(file);
-}
+VtkWriter::VtkWriter(const std::filesystem::path& folder, int output_every)
+    : folder_(made_folder(folder)), output_every_(output_every) {}
 
 void VtkWriter::write(const StepRecord& record) const {
   if (record.outcome && record.step % output_every_ != 0) return;

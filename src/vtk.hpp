@@ -18,9 +18,8 @@ std::string vtk_file(const StepRecord& record, int outline_points = 96);
 // the final configuration.
 class VtkWriter {
  public:
-  // Makes the folder; a run that does not go on from a checkpoint deletes the files of that name which are there.
-  // InputError when it cannot be written.
-  VtkWriter(const std::filesystem::path& folder, int output_every, bool goes_on);
+  // Makes the folder. InputError when it cannot be written.
+  VtkWriter(const std::filesystem::path& folder, int output_every);
 
   // Each file is replaced as a whole. NumericalError on a write error.
   void write(const StepRecord& record) const;
