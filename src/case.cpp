@@ -21,6 +21,46 @@ std::vector<std::string> key_names() {
   return names;
 }
 
+// Where a value in double quotes ends, the closing quote included; a quote inside it is written twice. Nothing where the
+// text does not begin with a quote, or has only that one.
+std::size_t quoted_length(std::string_view text) {
+  if (!text.starts_with('"')) return 0;
+  for (std::size_t k = 1; k < text.size(); ++k) {
+    if (text[k] != '"') continue;
+    if (k + 1 == text.size() || text[k + 1] != '"') return k + 1;
+    ++k;
+  }
+  return 0;
+}
+
+// A line of a case file up to its comment: a '#' that is not in quotes.
+std::string_view without_comment(std::string_view line) {
+  const std::size_t comment = line.find('#'), value = line.find_first_not_of(" \t=", line.find('='));
+  if (comment <= value || value == std::string_view::npos) return trim(line.substr(0, comment));
+  return trim(line.substr(0, line.find('#', value + quoted_length(line.substr(value)))));
+}
+
+// The value that is written in quotes; others as they are.
+std::string unquoted(std::string_view text, const std::string& where) {
+  if (!text.starts_with('"')) return std::string(text);
+  if (quoted_length(text) != text.size())
+    fail(where, quote(text), " begins with a quote that does not end it; write the whole value between two quotes.");
+  std::string value;
+  for (std::size_t k = 1; k + 1 < text.size(); ++k) {
+    value += text[k];
+    if (text[k] == '"') ++k;
+  }
+  return value;
+}
+
+// The reverse, where a file needs it.
+std::string as_written(const std::string& value) {
+  if (value == trim(value) && value.find_first_of("#\"") == std::string::npos) return value;
+  std::string text = "\"";
+  for (const char c : value) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + '"';
+}
+
 // Adds `key = value`; a key that `given` has already is an error.
 void add_setting(std::string_view setting, const std::string& where, GivenKeys& given) {
   for (const char c : setting) {
@@ -32,21 +72,19 @@ void add_setting(std::string_view setting, const std::string& where, GivenKeys& 
   const auto equals = setting.find('=');
   if (equals == std::string_view::npos) fail(where, quote(setting), " has no '='; write key = value.");
   const std::string key(trim(setting.substr(0, equals)));
-  const std::string_view value = trim(setting.substr(equals + 1));
+  const std::string value = unquoted(trim(setting.substr(equals + 1)), where);
   const auto names = key_names();
   if (std::find(names.begin(), names.end(), key) == names.end()) {
     fail(where, "unknown key ", quote(key), "; did you mean ", quote(nearest_name(key, names)),
          "? --help lists the keys.");
   }
   if (value.empty()) fail(where, key, " has no value; write ", key, " = value.");
-  const auto [entry, is_new] = given.try_emplace(key, GivenValue{std::string(value), where});
+  const auto [entry, is_new] = given.try_emplace(key, GivenValue{value, where});
   if (!is_new) {
     fail(where, key, " = ", quote(value), " is given twice; the first is ", quote(entry->second.text),
          " at ", entry->second.where, "; keep one.");
   }
 }
-
-std::string_view without_comment(std::string_view line) { return trim(line.substr(0, line.find('#'))); }
 
 // Everything given, arguments in the place of what the file says; `end` is the file's last line.
 GivenKeys collect(std::string_view content, const std::filesystem::path& file, const std::vector<std::string>& overrides,
@@ -60,7 +98,7 @@ GivenKeys collect(std::string_view content, const std::filesystem::path& file, c
     if (!setting.empty()) add_setting(setting, end, in_file);
   }
   for (const std::string& argument : overrides)
-    add_setting(without_comment(argument), concat("argument ", quote(argument)), in_arguments);
+    add_setting(trim(argument), concat("argument ", quote(argument)), in_arguments);
   in_arguments.merge(in_file);
   return in_arguments;
 }
@@ -208,15 +246,15 @@ Comments describe(const Case& parameters) {
 
 std::string format_case(const Case& parameters) {
   std::string text;
-  for (const auto& [key, value] : describe(parameters)) text += concat(key, " = ", value, "\n");
-  return concat(text, "output = ", parameters.output, "\n");
+  for (const auto& [key, value] : describe(parameters)) text += concat(key, " = ", as_written(value), "\n");
+  return concat(text, "output = ", as_written(parameters.output), "\n");
 }
 
 std::string case_help() {
   const Case defaults;
   std::string text =
       "A case file has one `key = value` a line; `#` starts a comment. An argument key=value counts as\n"
-      "if written in the file and replaces what it says.\n\n";
+      "if written in the file and replaces what it says; `#` is a part of it. A value may stand in double quotes.\n\n";
   for (const CaseKey& key : case_keys()) {
     const auto standard = padded(key.needed != Needed::never ? "required" : key.get(defaults), 10);
     text += concat("  ", padded(key.name, 23), standard, key.help, " (", key.kind, ")\n");

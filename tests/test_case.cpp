@@ -133,13 +133,31 @@ TEST_CASE("line ends, byte order mark, blanks and comments do not matter in a ca
 TEST_CASE("an argument counts as if written in the file and replaces what is there") {
   const Case c = read(complete + "rate = abc # wrong\n", {"rate = -3", "bodies=other.csv", "threads=4"});
   CHECK(c.rate == -3.0);
-  CHECK(read(complete, {"rate=2 # twice"}).rate == 2.0);
+  CHECK_ARGUMENT("rate=2 # twice", "rate = '2 # twice' is not a finite number");
   CHECK(c.bodies_path() == c.file.parent_path() / "other.csv");
   CHECK(c.threads == 4);
   Overrides all;
   for (const auto& line : split(complete, '\n'))
-    if (!line.empty()) all.emplace_back(line);
+    if (!line.empty()) all.emplace_back(line.substr(0, line.find('#')));
   CHECK(describe(read("", all)) == describe(read(complete)));
+}
+
+TEST_CASE("a '#' in an argument or in quotes is a part of the value, and a case that is written keeps it") {
+  CHECK(read(complete, {"output=run#2"}).output == "run#2");
+  CHECK(read(complete, {"output= my \"run\" "}).output == "my \"run\"");
+  const std::string others = complete.substr(0, complete.find("output"));
+  CHECK(read(others + "output = \"run #2\"  # the second\n").output == "run #2");
+  CHECK(read(others + "output = \"a \"\"quoted\"\" # name\" # \"of\" two\n").output == "a \"quoted\" # name");
+  CHECK(read(others + "output = run#2\n").output == "run");
+  CHECK_CONTAINS(case_refusal(others + "output = \"run\n"), "case.txt:6: '\"run' begins with a quote");
+  CHECK_CONTAINS(case_refusal(others + "output = \"run\" 2\n"), "begins with a quote");
+  for (const char* name : {"run#2", "#", "my \"run\"", "\"run\"#", "plain"}) {
+    Case c = read(complete);
+    c.output = name, c.bodies = concat(name, ".csv");
+    const Case again = read(format_case(c));
+    CHECK(again.output == name);
+    CHECK(again.bodies == c.bodies);
+  }
 }
 
 TEST_CASE("a wrong argument is refused and named") {
