@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "rheology.hpp"
 
@@ -24,19 +25,20 @@ std::vector<std::string> steps_columns(StepsColumns columns) {
   return names;
 }
 
-const std::filesystem::path& long_enough(const std::filesystem::path& folder, const Recorder::Position& position) {
-  for (const auto& [name, needed] : {std::pair(trajectory_name, position.trajectory_bytes),
-                                     std::pair(steps_name, position.steps_bytes)}) {
-    const std::filesystem::path file = folder / name;
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    if (!error && size >= needed) continue;
-    throw InputError(concat(file.string(), ": cannot be continued: ",
-                            error ? error.message() : concat("it has ", size, " bytes"), ", but the first ", needed,
-                            " bytes are needed; put them back, or delete the checkpoint beside it to start from the ",
-                            "beginning."));
-  }
-  return folder;
+// Why a table that begins with these columns cannot be cut to so many bytes and continued, or nothing.
+std::string why_not_continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                              std::uintmax_t bytes) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) return concat(file.string(), ": ", error.message());
+  if (size < bytes) return concat(file.string(), " has ", size, " bytes, but the checkpoint belongs to ", bytes);
+  std::ifstream table(file, std::ios::binary);
+  std::string header;
+  std::getline(table, header);
+  if (header != join(columns, ",")) return concat(file.string(), " has other columns");
+  table.seekg(static_cast<std::streamoff>(bytes) - 1);
+  if (table.get() != '\n') return concat(file.string(), " has no row that ends where the checkpoint was made");
+  return {};
 }
 
 // Contacts are pairs: two regions of one pair count once.
@@ -97,11 +99,18 @@ Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsC
                    const Position& position)
     : output_every_(output_every),
       columns_(columns),
-      trajectory_(CsvWriter::continued(long_enough(folder, position) / trajectory_name, trajectory_columns.size(),
+      trajectory_(CsvWriter::continued(folder / trajectory_name, trajectory_columns.size(),
                                        position.trajectory_bytes)),
       steps_(CsvWriter::continued(folder / steps_name, steps_columns(columns).size(), position.steps_bytes)),
       skipped_(position.skipped),
       position_(position) {}
+
+std::string Recorder::why_not_continued(const std::filesystem::path& folder, StepsColumns columns,
+                                        const Position& position) {
+  std::string why = stokes::why_not_continued(folder / trajectory_name, trajectory_columns, position.trajectory_bytes);
+  if (why.empty()) why = stokes::why_not_continued(folder / steps_name, steps_columns(columns), position.steps_bytes);
+  return why;
+}
 
 void Recorder::record(const StepRecord& record) {
   try {

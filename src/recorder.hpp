@@ -43,8 +43,10 @@ class Recorder {
 
   // Creates the folder where it is missing. InputError when it cannot be written.
   Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns = StepsColumns::unbounded);
-  // Goes on with the files of a run that was at `position`; what they hold beyond is cut off. InputError, and
-  // nothing is changed, where they hold less.
+  // Why the files in a folder are not those of a run that was at `position`, or nothing.
+  static std::string why_not_continued(const std::filesystem::path& folder, StepsColumns columns,
+                                       const Position& position);
+  // Goes on with the files of a run that was at `position`; what they hold beyond is cut off.
   Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Position& position);
 
   const Position& position() const { return position_; }

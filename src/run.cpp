@@ -156,9 +156,14 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   const FolderLock lock(c.output);
   const RunRecord ran(c, bodies);
   const CheckpointFile file(c, bodies);
-  const std::optional<Checkpoint> start = file.read();
+  std::optional<Checkpoint> start = file.read();
   if (!std::filesystem::exists(file.path())) ran.check_overwriting();  // what failed may be replaced, too
+  const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
+  const std::string misfit = start ? Recorder::why_not_continued(c.output, columns, start->recorder) : std::string();
+  if (!misfit.empty()) start.reset();
   Progress progress(c.end_time, start ? start->run.clock.time : 0.0, label);
+  if (!misfit.empty())
+    progress.message(concat("warning: the results do not fit their checkpoint (", misfit, "): starting from the beginning"));
   if (!start) {
     file.remove();  // before the results that it belongs to
     ran.remove_results();
@@ -167,7 +172,6 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   catch_signals();
   std::optional<VtkWriter> vtk;
   if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every);
-  const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
   Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
                             : Recorder(c.output, c.output_every, columns);
   if (start)

@@ -26,6 +26,13 @@ std::map<std::string, std::string> files_of(const Workspace& here, const std::st
   return everything_in(here.path() / output);
 }
 
+// The same without the record, which names the folder and the command.
+std::map<std::string, std::string> tables_of(const Workspace& here, const std::string& output) {
+  std::map<std::string, std::string> files = files_of(here, output);
+  for (const char* name : {"run.txt", "case.txt", "bodies.csv"}) CHECK(files.erase(name) == 1);
+  return files;
+}
+
 // Every state between two steps, and the final record, of a run that may begin in one of them.
 struct Course {
   std::vector<RunState> states;
@@ -94,15 +101,15 @@ void check_interrupted(const Workspace& here, const std::vector<std::string>& si
     CHECK(was_there == contains(run.errors, "going on from step "));
     continued += was_there;
     if (run.status == 0) {
-      CHECK(files_of(here, "out") == files_of(here, "whole"));
+      CHECK(tables_of(here, "out") == tables_of(here, "whole"));
     } else {
       CHECK((run.status == 137 || run.status == 143 || run.status == 130));
     }
   }
   CHECK(continued == interruptions);
   CHECK(here.run({"case.txt"}).status == 0);
-  CHECK(files_of(here, "out") == files_of(here, "whole"));
-  CHECK(files_of(here, "out").size() == 2);
+  CHECK(tables_of(here, "out") == tables_of(here, "whole"));
+  CHECK(tables_of(here, "out").size() == 2);
 }
 
 // A folder with a run that has been stopped on its way.
@@ -225,7 +232,7 @@ TEST_CASE("a case of an experiment that is killed again and again ends with the 
   CHECK(continued == 2);
   CHECK(run_program(program, {"case=quick"}, parts.path()).status == 0);
   CHECK(everything_in(parts.path()) == everything_in(whole.path()));
-  CHECK(everything_in(whole.path()).size() == 9);  // six files in three folders
+  CHECK(everything_in(whole.path()).size() == 11);  // eight files in three folders
 }
 
 TEST_CASE("a run that is killed before its first checkpoint starts again") {
@@ -234,7 +241,7 @@ TEST_CASE("a run that is killed before its first checkpoint starts again") {
   here.run_until(0.06, "KILL", {"case.txt", "checkpoint_every=0"});
   CHECK_FALSE(fs::exists(here.path() / "out" / "checkpoint"));
   CHECK_FALSE(contains(here.run({"case.txt"}).errors, "going on"));
-  CHECK(files_of(here, "out") == files_of(here, "whole"));
+  CHECK(tables_of(here, "out") == tables_of(here, "whole"));
 }
 
 TEST_CASE("SIGTERM and SIGINT leave a checkpoint and say so") {
@@ -244,7 +251,7 @@ TEST_CASE("SIGTERM and SIGINT leave a checkpoint and say so") {
 TEST_CASE("an unfinished run of another case is refused with what differs, and nothing is changed") {
   const Stopped here;
   check_refused(here, {"case.txt", "time_step=.2"},
-                {"out/checkpoint", "'time_step = 0.1'", "'time_step = 0.2'", "delete"});
+                {"out/checkpoint", "'time_step = 0.1'", "'time_step = 0.2'", "overwrite = yes"});
   check_refused(here, {"case.txt", "rate=-1"}, {"'rate = 1'", "'rate = -1'"});
   here.write("bodies.csv", passing_discs + ".5,.5,9,9,0\n");
   check_refused(here, {"case.txt"}, {"'body 2: 0.5 0.5 9 9 0 0 0 0'", "no further body"});
@@ -252,13 +259,12 @@ TEST_CASE("an unfinished run of another case is refused with what differs, and n
   check_refused(here, {"case.txt"}, {"'body 1: 0.5 0.5 0 0 0 0 0 0'", "'body 1: 0.5 0.5 0 0 1e-300 0 0 0'"});
   CHECK(here.run({"case.txt", "output=other", "end_time=1"}).status == 0);
   fs::remove(here.path() / "out" / "checkpoint");
-  CHECK(here.run({"case.txt", "end_time=1"}).status == 0);
+  CHECK(here.run({"case.txt", "end_time=1", "overwrite=yes"}).status == 0);
 }
 
-TEST_CASE("a damaged checkpoint and results that are gone are refused") {
+TEST_CASE("a damaged checkpoint is refused") {
   const Stopped here;
   const std::string checkpoint = content_of(here.path() / "out" / "checkpoint");
-  const std::string steps = content_of(here.path() / "out" / "steps.csv");
   std::mt19937_64 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     std::string text = checkpoint;
@@ -270,11 +276,33 @@ TEST_CASE("a damaged checkpoint and results that are gone are refused") {
     here.write("out/checkpoint", checkpoint.substr(0, size));
     check_refused(here, {"case.txt"}, {"out/checkpoint", "damaged"});
   }
-  here.write("out/checkpoint", checkpoint);
-  here.write("out/steps.csv", steps.substr(0, steps.size() / 2));
-  check_refused(here, {"case.txt"}, {"out/steps.csv", concat(steps.size() / 2, " bytes"), "delete the checkpoint"});
-  fs::remove(here.path() / "out" / "steps.csv");
-  check_refused(here, {"case.txt"}, {"out/steps.csv", "delete the checkpoint"});
+}
+
+TEST_CASE("a run whose results do not fit its checkpoint starts again with a warning, to the same bytes") {
+  const Workspace here(case_text("shear", 64, 0.02, 8), passing_discs);
+  REQUIRE(here.run({"case.txt", "output=whole"}).status == 0);
+  for (const char* name : {"trajectory.csv", "steps.csv"}) {
+    const fs::path table = here.path() / "out" / name;
+    for (const char* misfit : {"gone", "short", "other columns", "no row ends there"}) {
+      CAPTURE(std::string(misfit));
+      // Killed, so that a checkpoint is there that is older than the tables.
+      for (double seconds = 0.1; !fs::exists(here.path() / "out/checkpoint"); seconds *= 1.5) {
+        REQUIRE(seconds < 20.0);
+        here.run_until(seconds, "KILL", {"case.txt", "checkpoint_every=1e-9"});
+      }
+      const std::string text = content_of(table), why = misfit;
+      if (why == "gone") fs::remove(table);
+      if (why == "short") here.write(fs::path("out") / name, text.substr(0, 70));
+      if (why == "other columns") here.write(fs::path("out") / name, "s" + text);
+      if (why == "no row ends there") here.write(fs::path("out") / name, text.substr(0, text.find('\n') + 1) + text);
+      const ProgramRun run = here.run({"case.txt"});
+      CAPTURE(run.errors);
+      CHECK(run.status == 0);
+      CHECK(contains(run.errors, "warning: the results do not fit their checkpoint (out/"));
+      CHECK(contains(run.errors, "starting from the beginning"));
+      CHECK(tables_of(here, "out") == tables_of(here, "whole"));
+    }
+  }
 }
 
 TEST_CASE("a run that failed fails again in the same way, unless its case is changed") {
@@ -284,13 +312,13 @@ TEST_CASE("a run that failed fails again in the same way, unless its case is cha
   for (const auto& [here, change] : {std::pair(&overlapping, "contact=gap"), {&unsolved, "gmres_tolerance=1e-8"}}) {
     const ProgramRun first = here->run({"case.txt"});
     CHECK(first.status == 3);
-    const auto files = here->everything();
-    CHECK(files_of(*here, "out").contains("checkpoint"));
+    const auto files = files_of(*here, "out");
+    CHECK(files.contains("checkpoint"));
     const ProgramRun again = here->run({"case.txt"});
     CHECK(again.status == 3);
     CHECK(contains(again.errors, "going on from step "));
     CHECK(again.errors.ends_with(first.errors.substr(first.errors.rfind("simulate: step "))));
-    CHECK(here->everything() == files);
+    CHECK(files_of(*here, "out") == files);
     const ProgramRun changed = here->run({"case.txt", change});
     CHECK(changed.status == 0);
     CHECK_FALSE(contains(changed.errors, "going on"));
@@ -302,7 +330,7 @@ TEST_CASE("a finished run leaves no checkpoint, and is made anew by the same com
   const Workspace here(case_text("shear", 16, 0.1, 1, "checkpoint_every = 1e-9\n"), passing_discs);
   CHECK(here.run({"case.txt"}).status == 0);
   const auto files = here.everything();
-  CHECK(files_of(here, "out").size() == 2);
+  CHECK(tables_of(here, "out").size() == 2);
   const ProgramRun again = here.run({"case.txt"});
   CHECK(again.status == 0);
   CHECK_FALSE(contains(again.errors, "going on"));
