@@ -286,7 +286,11 @@ void CheckpointFile::write(const Checkpoint& checkpoint) const {
   for (const std::string& line : description_) writer.line(line);
   write_state(writer, checkpoint);
   text += concat("checksum ", std::to_string(checksum(text)), "\n");
-  write_file_atomically(path_, text);
+  try {
+    write_file_atomically(path_, text);
+  } catch (const InputError& error) {  // nothing is wrong with the input: the run is under way
+    throw NumericalError(error.what());
+  }
 }
 
 void CheckpointFile::remove() const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "interruption.hpp"
 #include "threads.hpp"
 
 namespace stokes {
@@ -128,6 +129,7 @@ GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner,
     bool independent = true;
     while (independent && !cycle.full() && result.iterations < options.max_iterations &&
            cycle.residual() > 0.9 * options.tolerance * scale) {
+      end_if_interrupted();
       preconditioner(cycle.last(), direction);
       A(direction, image);
       independent = cycle.extend(direction, image);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "contact_wrenches.hpp"
+#include "interruption.hpp"
 #include "lcp.hpp"
 #include "text.hpp"
 
@@ -88,8 +89,7 @@ class Iteration {
 
   // From here on the present forces stay, and the unknowns are what is added to them.
   void commit() {
-    base_ = motion_;
-    base_wrenches_ = wrenches_;
+    base_ = motion_, base_wrenches_ = wrenches_;
     for (Candidate& c : candidates_) c.committed += c.multiplier, c.multiplier = 0.0;
   }
 
@@ -379,12 +379,12 @@ NcpResult resolve_contacts(const Suspension& start, const Response& contact_free
     const double violation = Iteration::violation(*worst);
     without_progress = violation <= 0.5 * best ? 0 : without_progress + 1;
     best = std::min(best, violation);
+    end_if_interrupted();
+    const auto where = [&] { return concat(result.iterations, " iterations; worst: ", name(worst->constraint)); };
     if (result.iterations == options.max_iterations)
-      result.failure = concat("contact was not resolved in ", result.iterations, " iterations; worst: ",
-                              name(worst->constraint));
+      result.failure = concat("contact was not resolved in ", where());
     else if (options.demand_progress && without_progress >= 2)
-      result.failure = concat("contact resolution stopped converging after ", result.iterations,
-                              " iterations; worst: ", name(worst->constraint));
+      result.failure = concat("contact resolution stopped converging after ", where());
     else {
       if (result.iterations >= options.increments_after) iteration.commit();
       result.failure = iteration.solve(options, result.unresolved);

@@ -81,7 +81,8 @@ struct NcpResult {
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with
 // a positive multiplier is met to its tolerance; a contact that is no longer found counts as open and met.
 // `balance`, if any, is applied to the wrenches of every iterate, at the cost of a solve where it changes
-// them by more than round-off. Failure is reported, with what was reached, not thrown.
+// them by more than round-off. Failure is reported, with what was reached, not thrown; an Interruption when a signal asks
+// for it is.
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
                            const ConstraintFunction& constraints, const ContactMobility& mobility,
                            const NcpOptions& options, const BalanceFunction& balance = {});

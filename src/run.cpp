@@ -1,10 +1,6 @@
 #include "run.hpp"
 
-#include <atomic>
 #include <chrono>
-#include <csignal>
-#include <cstdlib>
-#include <ctime>
 #include <optional>
 
 #include "checkpoint.hpp"
@@ -27,32 +23,6 @@ void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separati
   if (c.contact != ContactModel::none && closest.gap < separation)
     progress.message(concat("warning: ", pair_name(closest.a, closest.b), " start ", closest.gap,
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
-}
-
-std::atomic<int> caught_signal = 0;
-std::atomic<std::time_t> caught_at = 0;
-
-// The first signal lets the run finish its step; one more, more than a second later, ends it at once.
-extern "C" void catch_signal(int signal) {
-  if (caught_signal == 0) {
-    caught_at = std::time(nullptr);
-    caught_signal = signal;
-  } else if (std::time(nullptr) > caught_at + 1) {
-    std::_Exit(128 + signal);
-  }
-}
-
-void catch_signals() {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    struct sigaction action {};
-    sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;  // as in the background, where Ctrl-C is for others
-    action = {};
-    action.sa_handler = catch_signal;
-    action.sa_flags = SA_RESTART;
-    sigaction(signal, &action, nullptr);
-  }
-  std::signal(SIGXFSZ, SIG_IGN);  // a file at the limit of its size is then a write error like a full disk
 }
 
 // Writes the flow of the first state at or after each of the times asked for, where its file is missing.
@@ -83,45 +53,64 @@ class FieldTimes {
 // Writes checkpoints at intervals of wall time, and where the run ends early.
 class Checkpoints {
  public:
-  Checkpoints(const CheckpointFile& file, const Recorder& recorder, double interval)
-      : file_(file), recorder_(recorder), interval_(interval), last_(Clock::now()) {}
+  Checkpoints(const CheckpointFile& file, const Recorder& recorder, double interval, Progress& progress)
+      : file_(file), recorder_(recorder), progress_(progress), interval_(interval), last_(Clock::now()),
+        position_(recorder.position()) {}
 
   void observe(const RunState& state, RunStage stage) {
     latest_ = &state;
     latest_stage_ = stage;
-    const int signal = caught_signal;
-    const bool due = interval_ > 0.0 && std::chrono::duration<double>(Clock::now() - last_).count() >= interval_;
-    if (stage == RunStage::under_way && !due && signal == 0) return;
-    file_.write({state, stage, recorder_.position()});
-    last_ = Clock::now();
-    if (stage == RunStage::under_way && signal != 0) {
-      throw Interruption{signal, concat("interrupted at step ", state.clock.step, ", time ", state.clock.time,
-                                        "; the same command goes on from ", file_.path().string())};
+    // The rows of a step that was given up while its fields were written are no part of the state before it.
+    if (stage != RunStage::interrupted) position_ = recorder_.position();
+    if (stage == RunStage::under_way) {
+      const bool due = interval_ > 0.0 && std::chrono::duration<double>(Clock::now() - last_).count() >= interval_;
+      if (due) write();
+      end_if_interrupted();
+    } else {
+      write();
     }
+    if (stage == RunStage::interrupted)
+      interruption_ = concat("interrupted at step ", state.clock.step, ", time ", state.clock.time, "; ", way_on());
   }
 
-  // Where a run that could not write its results goes on, as the end of a message: from the latest state, up to which
-  // they reached to `position`, if there is room for its checkpoint, otherwise from the checkpoint before.
-  std::string save_after_write_error(const Recorder::Position& position) const {
-    std::string way = "the same command goes on from there";
-    try {
-      if (latest_) file_.write({*latest_, latest_stage_, position});
-    } catch (const std::exception&) {
-      way = "there is no room for a checkpoint, so that the same command goes on from an earlier one";
-    }
-    if (!std::filesystem::exists(file_.path())) way = "there is no checkpoint, so that the same command starts again";
-    return concat("The results are complete up to here; ", way, ".");
+  const std::string& interruption() const { return interruption_; }
+
+  // Where a run that could not write its results goes on, as the end of a message: from the latest state, if there is
+  // room for its checkpoint, otherwise from the checkpoint before.
+  std::string save_after_write_error() {
+    if (latest_) write();
+    return concat("The results are complete up to here; ", way_on(), ".");
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void write() {
+    why_not_written_.clear();
+    try {
+      file_.write({*latest_, latest_stage_, position_});
+    } catch (const std::exception& error) {
+      why_not_written_ = error.what();
+      progress_.message(concat("warning: there is no checkpoint of step ", latest_->clock.step, ": ", error.what()));
+    }
+    last_ = Clock::now();
+  }
+
+  std::string way_on() const {
+    if (!std::filesystem::exists(file_.path())) return "there is no checkpoint, so that the same command starts again";
+    return concat("the same command goes on from ", why_not_written_.empty() ? "" : "an earlier step, ",
+                  file_.path().string());
+  }
+
   const CheckpointFile& file_;
   const Recorder& recorder_;
+  Progress& progress_;
   double interval_;
   Clock::time_point last_;
   const RunState* latest_ = nullptr;  // alive while the run is
   RunStage latest_stage_ = RunStage::under_way;
+  Recorder::Position position_;  // where the results of the latest state end
+  std::string why_not_written_, interruption_;
 };
 
 }  // namespace
@@ -152,6 +141,7 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   const Suspension bodies = read_suspension(c);
   SimulationOptions options = options_of(c, bodies);
   if (c.threads) set_thread_count(*c.threads);
+  const SignalGuard signals;
 
   const FolderLock lock(c.output);
   const RunRecord ran(c, bodies);
@@ -169,7 +159,6 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
     ran.remove_results();
   }
   ran.write();
-  catch_signals();
   std::optional<VtkWriter> vtk;
   if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every);
   Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
@@ -180,31 +169,35 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
     warn_of_small_gaps(c, bodies, options.stepper.separation, progress);
 
   if (start) options.start = start->run;
-  Checkpoints checkpoints(file, recorder, c.checkpoint_every);
+  Checkpoints checkpoints(file, recorder, c.checkpoint_every, progress);
   options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };
   bool warned = false;
   FieldTimes fields(c, options.stepper);
   const auto write = [&](const StepRecord& record) {
-    const Recorder::Position before = recorder.position();
     try {
       recorder.record(record);
       fields.write(record);
       if (vtk) vtk->write(record);
     } catch (const std::exception& error) {
       throw NumericalError(concat("step ", record.step, ", time ", record.time, ": ", error.what(), " ",
-                                  checkpoints.save_after_write_error(before)));
+                                  checkpoints.save_after_write_error()));
     }
   };
-  const RunSummary summary = simulate(bodies, options, [&](const StepRecord& record) {
-    write(record);
-    progress.show(record);
-    if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
-      warned = true;
-      progress.message(concat("warning: at time ", record.time, " the top third of the Fourier modes holds ",
-                              record.outcome->density_tail, " of a density's energy (more than ", resolved_tail,
-                              "); more points_per_body would resolve it"));
-    }
-  });
+  RunSummary summary;
+  try {
+    summary = simulate(bodies, options, [&](const StepRecord& record) {
+      write(record);
+      progress.show(record);
+      if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
+        warned = true;
+        progress.message(concat("warning: at time ", record.time, " the top third of the Fourier modes holds ",
+                                record.outcome->density_tail, " of a density's energy (more than ", resolved_tail,
+                                "); more points_per_body would resolve it"));
+      }
+    });
+  } catch (const Interruption& end) {
+    throw Interruption{end.signal, checkpoints.interruption()};
+  }
   recorder.close();
   file.remove();
   return summary;

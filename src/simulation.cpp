@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "interruption.hpp"
 #include "neighbours.hpp"
 #include "text.hpp"
 
@@ -109,59 +110,95 @@ std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair
                 contact == ContactModel::none ? ", or contact = gap" : "");
 }
 
+class Run {
+ public:
+  Run(const Suspension& initial, const SimulationOptions& options, const Observer& observe)
+      : options_(options), observe_(observe), stepper_(initial, options.stepper), clock_(options) {
+    if (!options.start) return;
+    stepper_.restore(options.start->poses, options.start->memory);
+    rejected_ = options.start->rejected;
+  }
+
+  RunSummary to_its_end() {
+    remember();
+    std::string failure = obstacle(stepper_.bodies(), options_.stepper.contact, closest_);
+    // Bodies that overlap from the beginning may still be parted by the first step.
+    if (!failure.empty() && (options_.start || !(closest_.gap < 0.0))) return finish(failure);
+    while (!clock_.done()) {
+      const Suspension start = stepper_.bodies();
+      const StepOutcome outcome = step();
+      if (!outcome.accepted) return finish(outcome.failure);
+      observe_({clock_.now().step, clock_.now().time, start, closest_.gap, &outcome});
+      clock_.accept(outcome.dt, outcome.ncp_iterations);
+      remember();
+      failure = obstacle(stepper_.bodies(), options_.stepper.contact, closest_);
+      if (!failure.empty()) return finish(failure);
+      tell(RunStage::under_way);
+    }
+    return finish("");
+  }
+
+  // Where the present step starts.
+  void tell(RunStage stage) const {
+    if (options_.observe_state) options_.observe_state(state_, stage);
+  }
+
+ private:
+  // The step from here; not accepted, its failure says why the run ends.
+  StepOutcome step() {
+    clock_.begin_step();
+    const double driving = clock_.driving();
+    const NcpOptions ncp = ncp_options(options_);
+    StepOutcome outcome;
+    try {
+      double dt = clock_.step(options_.adaptive ? stepper_.geometric_step_limit(driving) : 0.0);
+      outcome = stepper_.attempt(dt, driving, ncp);
+      while (!outcome.accepted && clock_.reject(dt)) {
+        ++rejected_;
+        dt = clock_.step(dt);
+        outcome = stepper_.attempt(dt, driving, ncp);
+      }
+      if (!outcome.accepted)
+        outcome.failure += options_.adaptive ? "; the step cannot be halved further" : "; adaptive = yes would halve the step";
+    } catch (const NumericalError& error) {
+      outcome.failure = error.what();
+    }
+    return outcome;
+  }
+
+  void remember() {
+    if (!options_.observe_state) return;
+    state_ = {clock_.now(), {}, stepper_.memory(), rejected_};
+    for (const Body& body : stepper_.bodies()) state_.poses.push_back(body.pose);
+  }
+
+  RunSummary finish(const std::string& failure) {
+    const ClockState& now = clock_.now();
+    if (!failure.empty()) tell(RunStage::failed);
+    observe_({now.step, now.time, stepper_.bodies(), closest_.gap, nullptr});
+    if (!failure.empty()) throw NumericalError(concat("step ", now.step, ", time ", now.time, ": ", failure));
+    return {now.step, rejected_, stepper_.factorisations(), stepper_.shape_count()};
+  }
+
+  const SimulationOptions& options_;
+  const Observer& observe_;
+  Stepper stepper_;
+  Clock clock_;
+  RunState state_;
+  ClosestPair closest_;
+  long rejected_ = 0;
+};
+
 }  // namespace
 
 RunSummary simulate(const Suspension& initial, const SimulationOptions& options, const Observer& observe) {
-  Stepper stepper(initial, options.stepper);
-  if (options.start) stepper.restore(options.start->poses, options.start->memory);
-  Clock clock(options);
-  const NcpOptions ncp = ncp_options(options);
-  long rejected = options.start ? options.start->rejected : 0;
-  ClosestPair closest;
-
-  RunState state;  // where the present step starts
-  const auto remember = [&] {
-    if (!options.observe_state) return;
-    state = {clock.now(), {}, stepper.memory(), rejected};
-    for (const Body& body : stepper.bodies()) state.poses.push_back(body.pose);
-  };
-  const auto finish = [&](const std::string& failure) {
-    const ClockState& now = clock.now();
-    if (!failure.empty() && options.observe_state) options.observe_state(state, RunStage::failed);
-    observe({now.step, now.time, stepper.bodies(), closest.gap, nullptr});
-    if (!failure.empty()) throw NumericalError(concat("step ", now.step, ", time ", now.time, ": ", failure));
-    return RunSummary{now.step, rejected, stepper.factorisations(), stepper.shape_count()};
-  };
-
-  remember();
-  std::string failure = obstacle(stepper.bodies(), options.stepper.contact, closest);
-  // Bodies that overlap from the beginning may still be parted by the first step.
-  if (!failure.empty() && (options.start || !(closest.gap < 0.0))) return finish(failure);
-  while (!clock.done()) {
-    clock.begin_step();
-    const Suspension start = stepper.bodies();
-    StepOutcome outcome;
-    try {
-      double dt = clock.step(options.adaptive ? stepper.geometric_step_limit(clock.driving()) : 0.0);
-      outcome = stepper.attempt(dt, clock.driving(), ncp);
-      while (!outcome.accepted && clock.reject(dt)) {
-        ++rejected;
-        dt = clock.step(dt);
-        outcome = stepper.attempt(dt, clock.driving(), ncp);
-      }
-    } catch (const NumericalError& error) {
-      return finish(error.what());
-    }
-    if (!outcome.accepted)
-      return finish(outcome.failure + (options.adaptive ? "; the step cannot be halved further" : "; adaptive = yes would halve the step"));
-    observe({clock.now().step, clock.now().time, start, closest.gap, &outcome});
-    clock.accept(outcome.dt, outcome.ncp_iterations);
-    remember();
-    failure = obstacle(stepper.bodies(), options.stepper.contact, closest);
-    if (!failure.empty()) return finish(failure);
-    if (options.observe_state) options.observe_state(state, RunStage::under_way);
+  Run run(initial, options, observe);
+  try {
+    return run.to_its_end();
+  } catch (const Interruption&) {
+    run.tell(RunStage::interrupted);
+    throw;
   }
-  return finish("");
 }
 
 }  // namespace stokes

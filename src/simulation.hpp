@@ -31,8 +31,9 @@ struct RunState {
 };
 
 enum class RunStage {
-  under_way,  // after an accepted step
-  failed,     // the step from this state, or, if bodies overlap, this state itself ends the run
+  under_way,    // after an accepted step
+  failed,       // the step from this state, or, if bodies overlap, this state itself ends the run
+  interrupted,  // the step from this state was given up for a signal, which ends the run
 };
 using StateObserver = std::function<void(const RunState&, RunStage)>;
 
@@ -64,7 +65,8 @@ struct RunSummary {
 
 // Every state goes to the observer in order, the final one last, also when the run ends early with a
 // NumericalError: bodies overlap (contact = none), the contact problem or GMRES fails (adaptive: at the
-// smallest step, 1e-6 time_step). The message names step, time and cause.
+// smallest step, 1e-6 time_step). The message names step, time and cause. Interruption when a signal asks for it, after the
+// state to go on from was observed.
 RunSummary simulate(const Suspension& initial, const SimulationOptions& options, const Observer& observe);
 
 }  // namespace stokes
