@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "version.hpp"
+
 namespace stokes {
 
 namespace {
 
-constexpr std::string_view first_line = "checkpoint of simulate, format 3";
+constexpr std::string_view first_line = "checkpoint of simulate, format 4";
 
 // What has to be the same for a run to go on: the case, and every number of the bodies at its beginning.
 std::vector<std::string> description_of(const Case& c, const Suspension& initial) {
@@ -257,10 +259,12 @@ std::optional<Checkpoint> CheckpointFile::read() const {
   try {
     Reader reader(text);
     reader.line();
+    const std::string build(reader.line());
     reader.begin("description");
     std::vector<std::string> description(reader.integer<std::size_t>());
     for (std::string& line : description) line = reader.line();
     Checkpoint checkpoint = read_state(reader);
+    checkpoint.build = build;
     if (description == description_) return checkpoint;
     if (checkpoint.stage == RunStage::failed || overwrite_) return std::nullopt;
     std::size_t k = 0;
@@ -280,14 +284,14 @@ std::optional<Checkpoint> CheckpointFile::read() const {
 
 void CheckpointFile::write(const Checkpoint& checkpoint) const {
   std::string text(first_line);
-  text += '\n';
+  text += concat("\n", build_description(), "\n");
   Writer writer(text);
   writer.line("description", description_.size());
   for (const std::string& line : description_) writer.line(line);
   write_state(writer, checkpoint);
   text += concat("checksum ", std::to_string(checksum(text)), "\n");
   try {
-    write_file_atomically(path_, text);
+    write_file_atomically(path_, text, Until::on_disk);
   } catch (const InputError& error) {  // nothing is wrong with the input: the run is under way
     throw NumericalError(error.what());
   }

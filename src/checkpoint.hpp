@@ -1,8 +1,9 @@
 // Checkpoint of an unfinished run: the file `checkpoint` among its results, from which the same command goes on
 // to the same bytes that an uninterrupted run writes.
 //
-// A text file: the run's description, its state with every double to the last bit, the position of its results,
-// and a checksum. Replaced as a whole, so that one that was killed while it was written is the one before.
+// A text file: the build of the program, the run's description, its state with every double to the last bit, the
+// position of its results, and a checksum. Replaced as a whole and on disk before it counts, so that a process that is
+// killed or a machine that stops while it is written leaves the one before.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +25,7 @@ struct Checkpoint {
   RunState run;
   RunStage stage = RunStage::under_way;
   Recorder::Position recorder;
+  std::string build{};  // of the program that wrote it (build_description); of this one if empty
 };
 
 class CheckpointFile {

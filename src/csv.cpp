@@ -1,5 +1,8 @@
 #include "csv.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <limits>
@@ -12,6 +15,9 @@ namespace stokes {
 namespace {
 
 std::string system_message() { return std::generic_category().message(errno); }
+
+// Special files have nothing to bring to a disk.
+bool is_on_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 class Parser {
  public:
@@ -136,6 +142,15 @@ class Parser {
   Table table_;
 };
 
+// The new name of a file is on disk once its folder is. Not every file system can do that for a folder.
+void sync_folder(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const int opened = open(folder.c_str(), O_RDONLY | O_CLOEXEC);
+  if (opened < 0) return;
+  fsync(opened);
+  ::close(opened);
+}
+
 std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
@@ -258,6 +273,11 @@ void CsvWriter::flush() {
   if (file_ && std::fflush(file_.get()) != 0) fail();
 }
 
+void CsvWriter::sync() {
+  flush();
+  if (file_ && !is_on_disk(fileno(file_.get()))) fail();
+}
+
 void CsvWriter::close() {
   if (!file_) return;
   // A write that failed earlier leaves its mark in the stream even if the close itself succeeds.
@@ -277,7 +297,7 @@ void CsvWriter::fail() const {
                               "; free some space or choose another output folder."));
 }
 
-void write_file_atomically(const std::filesystem::path& path, std::string_view content) {
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Until until) {
   const std::string name = path.string(), temporary = name + ".tmp";
   std::FILE* const file = std::fopen(temporary.c_str(), "wb");
   if (!file) {
@@ -285,8 +305,12 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view c
                             "; check that its folder exists and can be written."));
   }
   bool done = std::fwrite(content.data(), 1, content.size(), file) == content.size();
+  if (until == Until::on_disk) done = done && std::fflush(file) == 0 && is_on_disk(fileno(file));
   done = std::fclose(file) == 0 && done;
-  if (done && std::rename(temporary.c_str(), name.c_str()) == 0) return;
+  if (done && std::rename(temporary.c_str(), name.c_str()) == 0) {
+    if (until == Until::on_disk) sync_folder(path);
+    return;
+  }
   const std::string reason = system_message();
   std::remove(temporary.c_str());
   throw NumericalError(

@@ -93,6 +93,8 @@ class CsvWriter {
   void row(std::span<const double> fields);
 
   void flush();
+  // flush(), and the file is on disk: it survives a machine that stops.
+  void sync();
   void close();
   // After a failed write: closes the file without a further complaint and takes what is behind its first `bytes`
   // bytes away, such as a part of a row. A row after that is a program error.
@@ -113,9 +115,12 @@ class CsvWriter {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
+// When a function that writes returns: once other processes see what it wrote, or once it is on disk.
+enum class Until { visible, on_disk };
+
 // Replaces a file as a whole: a reader sees the old content or the new, never a part, even if this
-// process is killed (a file <path>.tmp may stay behind). Throws InputError if it cannot be created,
+// process is killed or, with Until::on_disk, the machine stops (a file <path>.tmp may stay behind). Throws InputError if it cannot be created,
 // NumericalError if it cannot be completed; the old file is then untouched.
-void write_file_atomically(const std::filesystem::path& path, std::string_view content);
+void write_file_atomically(const std::filesystem::path& path, std::string_view content, Until until = Until::visible);
 
 }  // namespace stokes

@@ -174,6 +174,11 @@ void Recorder::write(const StepRecord& record) {
   steps_.flush();
 }
 
+void Recorder::sync() {
+  trajectory_.sync();
+  steps_.sync();
+}
+
 void Recorder::close() {
   trajectory_.close();
   steps_.close();

@@ -51,9 +51,12 @@ class Recorder {
 
   const Position& position() const { return position_; }
 
-  // Rows are on disk when this returns. NumericalError on a write error: both files and position() are then those
+  // Other processes see the rows when this returns. NumericalError on a write error: both files and position() are then those
   // of the record before, and nothing more can be recorded.
   void record(const StepRecord& record);
+
+  // Brings all rows to the disk. NumericalError on a write error.
+  void sync();
 
   // At the end of the work. NumericalError on a write error.
   void close();

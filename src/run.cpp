@@ -10,6 +10,7 @@
 #include "progress.hpp"
 #include "recorder.hpp"
 #include "threads.hpp"
+#include "version.hpp"
 #include "vtk.hpp"
 
 namespace stokes {
@@ -53,7 +54,7 @@ class FieldTimes {
 // Writes checkpoints at intervals of wall time, and where the run ends early.
 class Checkpoints {
  public:
-  Checkpoints(const CheckpointFile& file, const Recorder& recorder, double interval, Progress& progress)
+  Checkpoints(const CheckpointFile& file, Recorder& recorder, double interval, Progress& progress)
       : file_(file), recorder_(recorder), progress_(progress), interval_(interval), last_(Clock::now()),
         position_(recorder.position()) {}
 
@@ -88,6 +89,7 @@ class Checkpoints {
   void write() {
     why_not_written_.clear();
     try {
+      recorder_.sync();  // before the checkpoint that belongs to these rows
       file_.write({*latest_, latest_stage_, position_});
     } catch (const std::exception& error) {
       why_not_written_ = error.what();
@@ -103,7 +105,7 @@ class Checkpoints {
   }
 
   const CheckpointFile& file_;
-  const Recorder& recorder_;
+  Recorder& recorder_;
   Progress& progress_;
   double interval_;
   Clock::time_point last_;
@@ -165,7 +167,10 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
                             : Recorder(c.output, c.output_every, columns);
   if (start)
     progress.message(concat("going on from step ", start->run.clock.step, ", time ", start->run.clock.time));
-  else
+  if (start && start->build != build_description())
+    progress.message(concat("warning: the checkpoint is of another build of the program (", start->build, "; this is ",
+                            build_description(), "): from here on the last digits may be others"));
+  if (!start)
     warn_of_small_gaps(c, bodies, options.stepper.separation, progress);
 
   if (start) options.start = start->run;

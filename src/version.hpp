@@ -19,4 +19,17 @@ inline Comments provenance() {
   return {{"version", version}, {"compiler", compiler}};
 }
 
+// What the last digits of a result depend on: version, compiler and the instructions that it may use.
+inline std::string build_description() {
+#if defined(__AVX512F__)
+  const std::string instructions = "AVX-512";
+#elif defined(__AVX2__)
+  const std::string instructions = "AVX2";
+#else
+  const std::string instructions = "no wide";
+#endif
+  const Comments build = provenance();
+  return concat("version ", build[0].second, ", ", build[1].second, ", ", instructions, " instructions");
+}
+
 }  // namespace stokes
