@@ -151,7 +151,13 @@ class Run {
     const NcpOptions ncp = ncp_options(options_);
     StepOutcome outcome;
     try {
-      double dt = clock_.step(options_.adaptive ? stepper_.geometric_step_limit(driving) : 0.0);
+      const double limit = options_.adaptive ? stepper_.geometric_step_limit(driving) : 0.0;
+      if (const double least = smallest_step * options_.time_step; options_.adaptive && !(limit >= least)) {
+        outcome.failure = concat("bodies turn by 0.2 or close half a width in ", limit, ", below the smallest step of ",
+                                 least, "; try a smaller time_step");
+        return outcome;
+      }
+      double dt = clock_.step(limit);
       outcome = stepper_.attempt(dt, driving, ncp);
       while (!outcome.accepted && clock_.reject(dt)) {
         ++rejected_;

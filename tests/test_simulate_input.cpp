@@ -303,3 +303,13 @@ TEST_CASE("positions that overflow end the run as a numerical failure, with ever
       CHECK(std::isnan(results.body_column(0, "ux").back()));
     }
 }
+
+TEST_CASE("adaptive steps that would have to be too small end the run with the limit and the smallest step") {
+  const Workspace here = workspace(case_text("shear", 16, 1, 2, "adaptive = yes\n"));
+  const ProgramRun run = here.run_until(20.0, "KILL", {"case.txt", "rate=1e8"});
+  CAPTURE(run.errors);
+  CHECK(run.status == 3);
+  check_written_up_to(here, 0, 2);
+  CHECK(contains(run.errors, "step 0, time 0: bodies turn by 0.2 or close half a width in "));
+  CHECK(contains(run.errors, "below the smallest step of 1e-06; try a smaller time_step"));
+}
