@@ -62,7 +62,7 @@ std::vector<std::vector<double>> binomials(int count) {
 
 void Expansions::resize(int box_count, int order) {
   stride_ = padded(order);
-  data_.resize(2 * lead + static_cast<std::size_t>(box_count) * 4 * stride_);
+  data_.resize(lead + static_cast<std::size_t>(box_count) * (4 * stride_ + lead));
   const long size = static_cast<long>(data_.size());
   constexpr long piece = 1 << 17;
   parallel_for((size + piece - 1) / piece, [&](long c) {

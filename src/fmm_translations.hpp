@@ -31,7 +31,8 @@ namespace stokes {
 inline constexpr int largest_order = 47;
 
 // Coefficients 0 ... order of phi and psi of all boxes: for each box the real and imaginary parts of phi,
-// then of psi, each padded with zeros to a multiple of eight.
+// then of psi, each padded with zeros to a multiple of eight. Before each box there are zeros that nobody writes, which
+// the shifted loads of its first coefficients read, with weight zero.
 class Expansions {
  public:
   static int padded(int order) { return (order + 8) / 8 * 8; }
@@ -39,11 +40,11 @@ class Expansions {
   // All coefficients zero.
   void resize(int box_count, int order);
   int stride() const { return stride_; }
-  double* operator[](int box) { return data_.data() + lead + static_cast<std::size_t>(box) * 4 * stride_; }
+  double* operator[](int box) { return data_.data() + lead + static_cast<std::size_t>(box) * (4 * stride_ + lead); }
   const double* operator[](int box) const { return const_cast<Expansions&>(*this)[box]; }
 
  private:
-  static constexpr int lead = 8;  // a shifted load of the first coefficients stays inside
+  static constexpr int lead = 8;
   int stride_ = 0;
   AlignedVector data_;
 };
