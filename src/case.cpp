@@ -6,6 +6,7 @@
 #include "annulus.hpp"
 #include "case_keys.hpp"
 #include "recorder.hpp"
+#include "scales.hpp"
 #include "threads.hpp"
 
 namespace stokes {
@@ -62,7 +63,7 @@ std::string as_written(const std::string& value) {
 }
 
 // Adds `key = value`; a key that `given` has already is an error.
-void add_setting(std::string_view setting, const std::string& where, GivenKeys& given) {
+void add_setting(std::string_view setting, const std::string& where, bool in_argument, GivenKeys& given) {
   for (const char c : setting) {
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F) {
       fail(where, "there is a control character in ", quote(setting),
@@ -79,7 +80,7 @@ void add_setting(std::string_view setting, const std::string& where, GivenKeys& 
          "? --help lists the keys.");
   }
   if (value.empty()) fail(where, key, " has no value; write ", key, " = value.");
-  const auto [entry, is_new] = given.try_emplace(key, GivenValue{value, where});
+  const auto [entry, is_new] = given.try_emplace(key, GivenValue{value, where, in_argument});
   if (!is_new) {
     fail(where, key, " = ", quote(value), " is given twice; the first is ", quote(entry->second.text),
          " at ", entry->second.where, "; keep one.");
@@ -95,10 +96,10 @@ GivenKeys collect(std::string_view content, const std::filesystem::path& file, c
   for (const std::string_view line : split(content, '\n')) {
     end = concat(file.string(), ":", ++line_number);
     const std::string_view setting = without_comment(line);
-    if (!setting.empty()) add_setting(setting, end, in_file);
+    if (!setting.empty()) add_setting(setting, end, false, in_file);
   }
   for (const std::string& argument : overrides)
-    add_setting(trim(argument), concat("argument ", quote(argument)), in_arguments);
+    add_setting(trim(argument), concat("argument ", quote(argument)), true, in_arguments);
   in_arguments.merge(in_file);
   return in_arguments;
 }
@@ -112,14 +113,24 @@ struct Limit {
   }
 };
 
-void check_geometry(const Case& c, const Limit& limit) {
+// A key that does nothing is refused, with two exceptions. A value in the file that an argument for another key leaves
+// without effect is a warning: arguments try variants of one file. A default in a file says nothing wrong.
+void check_effects(Case& c, const GivenKeys& given) {
+  const Case defaults;
   for (const CaseKey& key : case_keys()) {
-    limit(key.belongs_to(c.geometry) || !limit.given.contains(key.name), key.name,
-          "belongs to an annulus, but the geometry is unbounded; write geometry = annulus or leave it out.");
+    const auto value = given.find(key.name);
+    const Condition* const idle = value == given.end() ? nullptr : key.idle_for(c);
+    if (!idle || (!value->second.in_argument && key.get(c) == key.get(defaults))) continue;
+    const auto decider = given.find(idle->key);
+    const bool by_argument = decider != given.end() && decider->second.in_argument && !value->second.in_argument;
+    if (!by_argument) refuse(key.name, value->second, idle->otherwise);
+    c.warnings.push_back(concat(value->second.where, ": ", key.name, " = ", quote(value->second.text), " has no effect: ",
+                                decider->second.where));
   }
+}
+
+void check_geometry(const Case& c, const Limit& limit) {
   if (c.geometry == Geometry::unbounded) return;
-  limit(c.flow == FlowKind::none, "flow",
-        "is a flow of unbounded fluid, but in an annulus the walls drive the fluid; leave it out.");
   limit(c.inner_radius > 0.0, "inner_radius", "must be greater than 0.");
   limit(c.outer_radius <= 1e100, "outer_radius", "is above 1e100; choose a larger unit of length.");
   limit(c.outer_radius > c.inner_radius, "outer_radius",
@@ -159,8 +170,9 @@ void check_separation(const Case& c, const Limit& limit) {
 }
 
 // Limits of the values and of their combinations.
-void check_case(const Case& c, const GivenKeys& given) {
+void check_case(Case& c, const GivenKeys& given) {
   const Limit limit{given};
+  check_effects(c, given);
   check_geometry(c, limit);
   limit(c.points_per_body >= 8, "points_per_body", "is below 8; try 32.");
   limit(c.points_per_body % 2 == 0, "points_per_body", "is odd; it must be even, try one more.");
@@ -177,6 +189,10 @@ void check_case(const Case& c, const GivenKeys& given) {
         "must be greater than 0 and less than 1; try 1e-8.");
   limit(c.stiv_vertices == 0 || c.stiv_vertices >= 8, "stiv_vertices",
         "must be at least 8, or 0 for 4 points_per_body.");
+  limit(c.stiv_vertices <= 65536, "stiv_vertices", "is above 65536; try 128.");
+  // The sums' own error; below it, GMRES solves for what they are, not for the flow.
+  limit(c.summation != Summation::fmm || c.gmres_tolerance >= 1e-11, "gmres_tolerance",
+        "is below 1e-11, which multipole sums with their error of 1e-12 cannot serve; take summation = direct.");
   check_output(c, limit);
   if (c.threads) {
     limit(*c.threads >= 1, "threads", "must be at least 1; leave it out for all cores.");
@@ -216,13 +232,24 @@ Suspension read_suspension(const Case& parameters) {
   return parse_suspension(parameters, read_text_file(parameters.bodies_path(), "the bodies' file"));
 }
 
+namespace {
+
+Suspension checked(Suspension bodies, const Case& parameters) {
+  std::string why = lost_precision(bodies);
+  if (why.empty()) why = out_of_scale(bodies, {parameters.flow, parameters.rate});
+  if (!why.empty()) fail(parameters.bodies_path().string(), why);
+  return bodies;
+}
+
+}  // namespace
+
 Suspension parse_suspension(const Case& parameters, std::string_view content) {
   const std::string name = parameters.bodies_path().string();
-  if (parameters.geometry == Geometry::unbounded) return parse_bodies(content, name);
+  if (parameters.geometry == Geometry::unbounded) return checked(parse_bodies(content, name), parameters);
   Annulus annulus{parameters.inner_radius, parameters.outer_radius, parameters.wall_points};
   annulus.inner_surface = {parameters.inner_angular_velocity, parameters.injection_rate};
   annulus.outer_surface = {parameters.outer_angular_velocity, parameters.injection_rate};
-  return between_walls(parse_bodies(content, name, annulus), annulus);
+  return checked(between_walls(parse_bodies(content, name, annulus), annulus), parameters);
 }
 
 double separation_length(const Case& parameters, const Suspension& bodies) {
@@ -237,7 +264,7 @@ Comments describe(const Case& parameters) {
   Comments lines;
   for (const CaseKey& key : case_keys()) {
     if (std::find(std::begin(without_effect), std::end(without_effect), key.name) != std::end(without_effect)) continue;
-    if (!key.belongs_to(parameters.geometry)) continue;
+    if (key.idle_for(parameters)) continue;
     if (key.name == "min_separation" && parameters.min_separation_length) continue;
     lines.emplace_back(key.name, key.get(parameters));
   }

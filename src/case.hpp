@@ -24,6 +24,7 @@ enum class Geometry {
 struct Case {
   std::filesystem::path file;  // the case file; not a key
   std::string command;         // that runs the case, for its record; not a key
+  std::vector<std::string> warnings;  // of what the user has given; not a key
 
   // Required.
   std::string bodies;             // CSV of the bodies, as written: see bodies_path()
@@ -87,7 +88,7 @@ Suspension parse_suspension(const Case& parameters, std::string_view content);
 // The smallest allowed distance between two bodies, in length units. Walls have no part in its unit h.
 double separation_length(const Case& parameters, const Suspension& bodies);
 
-// Every key of the case's geometry but `threads`, `output`, `overwrite` and `checkpoint_every` (results are the same
+// Every key that does something in the case but `threads`, `output`, `overwrite` and `checkpoint_every` (results are the same
 // bytes whatever these are) with its value, defaults included.
 Comments describe(const Case& parameters);
 

@@ -122,7 +122,7 @@ template <class Value>
 CaseKey optional(std::string name, Value Case::*member, std::string help) {
   const auto set = [=](Case& c, const GivenValue& given) { c.*member = parse_value<Value>(name, given); };
   const auto get = [=](const Case& c) { return text_of(c.*member); };
-  return {name, Needed::never, Belongs::everywhere, kind_of<Value>(), std::move(help), set, get};
+  return {name, Needed::never, {}, kind_of<Value>(), std::move(help), set, get};
 }
 
 template <class Value>
@@ -132,10 +132,34 @@ CaseKey required(std::string name, Value Case::*member, std::string help, Needed
   return key;
 }
 
-CaseKey in_annulus(CaseKey key) {
-  key.belongs = Belongs::annulus;
-  key.help = "in an annulus: " + key.help;
+CaseKey where(Condition condition, CaseKey key) {
+  key.conditions.push_back(std::move(condition));
   return key;
+}
+
+CaseKey in_annulus(CaseKey key) {
+  key.help = "in an annulus: " + key.help;
+  return where({"geometry", [](const Case& c) { return c.geometry == Geometry::annulus; },
+                "belongs to an annulus, but the geometry is unbounded; write geometry = annulus or leave it out."},
+               std::move(key));
+}
+
+CaseKey in_unbounded(CaseKey key) {
+  return where({"geometry", [](const Case& c) { return c.geometry == Geometry::unbounded; },
+                "belongs to a flow of unbounded fluid, but in an annulus the walls drive the fluid; leave it out."},
+               std::move(key));
+}
+
+CaseKey with_contact(CaseKey key) {
+  return where({"contact", [](const Case& c) { return c.contact != ContactModel::none; },
+                "does nothing with contact = none; leave it out."},
+               std::move(key));
+}
+
+CaseKey with_stiv(CaseKey key) {
+  return where({"contact", [](const Case& c) { return c.contact == ContactModel::stiv; },
+                "does nothing without contact = stiv; leave it out."},
+               std::move(key));
 }
 
 // A key that need not have a value: `unset` is the word for that.
@@ -145,7 +169,7 @@ CaseKey optional(std::string name, std::optional<Value> Case::*member, std::stri
     c.*member = given.text == unset ? std::nullopt : std::optional(parse_value<Value>(name, given));
   };
   const auto get = [=](const Case& c) { return c.*member ? text_of(*(c.*member)) : unset; };
-  return {name, Needed::never, Belongs::everywhere, kind_of<Value>() + " | " + unset, std::move(help), set, get};
+  return {name, Needed::never, {}, kind_of<Value>() + " | " + unset, std::move(help), set, get};
 }
 
 }  // namespace
@@ -153,10 +177,10 @@ CaseKey optional(std::string name, std::optional<Value> Case::*member, std::stri
 const std::vector<CaseKey>& case_keys() {
   static const std::vector<CaseKey> table = {
       required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file"),
-      required("flow", &Case::flow,
+      in_unbounded(required("flow", &Case::flow,
                "background: shear (rate y, 0), extension rate (x, -y), taylor_green rate (cos x sin y, -sin x cos y); "
                "none in an annulus",
-               Needed::unbounded),
+               Needed::unbounded)),
       required("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8"),
       required("time_step", &Case::time_step, "length of a step, time"),
       required("end_time", &Case::end_time, "when to stop, time"),
@@ -168,31 +192,37 @@ const std::vector<CaseKey>& case_keys() {
       in_annulus(optional("outer_angular_velocity", &Case::outer_angular_velocity, "of the outer wall, 1/time")),
       in_annulus(optional("inner_angular_velocity", &Case::inner_angular_velocity, "of the inner wall, 1/time")),
       in_annulus(optional("injection_rate", &Case::injection_rate, "through both walls, outwards, area/time")),
-      optional("rate", &Case::rate, "of the flow, 1/time; may be negative"),
+      where({"flow", [](const Case& c) { return c.flow != FlowKind::none; }, "does nothing with flow = none; leave it out."},
+            in_unbounded(optional("rate", &Case::rate, "of the flow, 1/time; may be negative"))),
       optional("reverse_at", &Case::reverse_at, "none", "time from which every driving is reversed"),
-      optional("min_separation", &Case::min_separation,
-               "in units of h = longest perimeter of a body / points_per_body"),
-      optional("min_separation_length", &Case::min_separation_length, "none",
-               "length, instead of min_separation"),
+      with_contact(optional("min_separation", &Case::min_separation,
+                            "in units of h = longest perimeter of a body / points_per_body")),
+      with_contact(optional("min_separation_length", &Case::min_separation_length, "none",
+                            "length, instead of min_separation")),
       optional("contact", &Case::contact, "model that keeps bodies apart"),
       optional("coupling", &Case::coupling, "between the bodies in a step"),
-      optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix"),
-      optional("stiv_vertices", &Case::stiv_vertices,
-               "of each polygon with contact = stiv, at least 8; 0: 4 points_per_body"),
-      optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed"),
+      with_contact(optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix")),
+      with_stiv(optional("stiv_vertices", &Case::stiv_vertices,
+                         "of each polygon with contact = stiv, 8 to 65536; 0: 4 points_per_body")),
+      with_stiv(optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed")),
       optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
       optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
       optional("refine", &Case::refine, "near: more nodes where bodies are too close for those they have"),
-      optional("summation", &Case::summation, "of the flows of all nodes; auto: direct for few of them"),
+      optional("summation", &Case::summation,
+               "of the flows of all nodes; auto: direct for few of them; fmm to a tenth of gmres_tolerance, 1e-12 at best"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
       optional("fields_at", &Case::fields_at, "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
-      optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid"),
+      where({"fields_at", [](const Case& c) { return !c.fields_at.empty(); },
+             "does nothing without fields_at; leave it out."},
+            optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid")),
       optional("overwrite", &Case::overwrite, "yes: replace the results of another run in the output folder"),
       optional("vtk", &Case::vtk, "OUTPUT/vtk/step_NUMBER.vtk for ParaView at every output_every-th step and the end"),
       optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
       optional("threads", &Case::threads, "all", concat("at most ", most_threads)),
-      optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time"),
+      where({"adaptive", [](const Case& c) { return !c.adaptive; },
+             "does nothing with adaptive = yes; leave it out."},
+            optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time")),
   };
   return table;
 }

@@ -14,18 +14,24 @@ namespace stokes {
 struct GivenValue {
   std::string text;
   std::string where;
+  bool in_argument = false;
 };
 using GivenKeys = std::map<std::string, GivenValue>;
 
 // In which geometries a case must have a key.
 enum class Needed { always, unbounded, annulus, never };
-// In which geometries a case may have it.
-enum class Belongs { everywhere, annulus };
+
+// What must hold for a key to do anything.
+struct Condition {
+  std::string key;  // the one that decides it
+  std::function<bool(const Case&)> holds;
+  std::string otherwise;  // the end of a sentence that begins with the key and its value
+};
 
 struct CaseKey {
   std::string name;
   Needed needed;
-  Belongs belongs;
+  std::vector<Condition> conditions;
   std::string kind;
   std::string help;
   std::function<void(Case&, const GivenValue&)> set;
@@ -34,7 +40,12 @@ struct CaseKey {
   bool is_needed(Geometry geometry) const {
     return needed == Needed::always || needed == (geometry == Geometry::annulus ? Needed::annulus : Needed::unbounded);
   }
-  bool belongs_to(Geometry geometry) const { return belongs == Belongs::everywhere || geometry == Geometry::annulus; }
+  // The first condition that does not hold, or none.
+  const Condition* idle_for(const Case& c) const {
+    for (const Condition& condition : conditions)
+      if (!condition.holds(c)) return &condition;
+    return nullptr;
+  }
 };
 
 // Every key, in the order of --help.

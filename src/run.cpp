@@ -1,6 +1,8 @@
 #include "run.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 
 #include "checkpoint.hpp"
@@ -9,6 +11,7 @@
 #include "output_folder.hpp"
 #include "progress.hpp"
 #include "recorder.hpp"
+#include "rheology.hpp"
 #include "threads.hpp"
 #include "version.hpp"
 #include "vtk.hpp"
@@ -24,6 +27,26 @@ void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separati
   if (c.contact != ContactModel::none && closest.gap < separation)
     progress.message(concat("warning: ", pair_name(closest.a, closest.b), " start ", closest.gap,
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
+}
+
+// The fastest strain or rotation of the flow without bodies.
+double largest_rate(const Case& c, const Suspension& bodies) {
+  if (!bodies.container) return c.flow == FlowKind::none ? 0.0 : std::abs(c.rate);
+  const CouetteFlow flow = couette_flow(bodies);
+  return std::abs(flow.shear_rate(flow.inner_radius));
+}
+
+// Values that are possible, but hardly meant.
+void warn_of_values(const Case& c, const Suspension& bodies, Progress& progress) {
+  for (const std::string& warning : c.warnings) progress.message(concat("warning: ", warning));
+  constexpr double large_step = 0.5;
+  if (const double strain = largest_rate(c, bodies) * c.time_step; !c.adaptive && strain > large_step)
+    progress.message(concat("warning: in a step of ", c.time_step, " the flow deforms by ", strain, " (more than ", large_step,
+                            "), too much for forward Euler steps; try time_step = ", 0.1 * c.time_step / strain));
+  const auto turned = [](const Body& body) { return std::abs(body.pose.angle) > 2.0 * pi; };
+  if (const auto first = std::find_if(bodies.begin(), bodies.end(), turned); first != bodies.end())
+    progress.message(concat("warning: theta = ", first->pose.angle, " of body ", first - bodies.begin(),
+                            " is more than a turn; angles are in radians, a right angle is ", 0.5 * pi));
 }
 
 // Writes the flow of the first state at or after each of the times asked for, where its file is missing.
@@ -170,8 +193,10 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   if (start && start->build != build_description())
     progress.message(concat("warning: the checkpoint is of another build of the program (", start->build, "; this is ",
                             build_description(), "): from here on the last digits may be others"));
-  if (!start)
+  if (!start) {
+    warn_of_values(c, bodies, progress);
     warn_of_small_gaps(c, bodies, options.stepper.separation, progress);
+  }
 
   if (start) options.start = start->run;
   Checkpoints checkpoints(file, recorder, c.checkpoint_every, progress);

@@ -6,6 +6,7 @@
 
 #include "interruption.hpp"
 #include "neighbours.hpp"
+#include "scales.hpp"
 #include "text.hpp"
 
 namespace stokes {
@@ -105,6 +106,7 @@ std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair
     closest.gap = std::numeric_limits<double>::quiet_NaN();
     return error.what();
   }
+  if (const std::string why = lost_precision(bodies); !why.empty()) return why;
   if (!(closest.gap < 0.0)) return {};
   return concat(pair_name(closest.a, closest.b), " overlap by ", -closest.gap, "; try a smaller time_step",
                 contact == ContactModel::none ? ", or contact = gap" : "");
