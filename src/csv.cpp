@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <limits>
 #include <system_error>
 
@@ -189,7 +190,7 @@ double Table::finite_number(int row, int column) const {
 double Table::number(int row, int column) const {
   const std::string& field = text(row, column);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  if (field == "nan") return std::numeric_limits<double>::quiet_NaN();
+  if (field == "nan" || field.empty()) return std::numeric_limits<double>::quiet_NaN();
   if (field == "inf") return infinity;
   if (field == "-inf") return -infinity;
   return finite_number(row, column);
@@ -250,7 +251,10 @@ CsvWriter::CsvWriter(const std::filesystem::path& path, const std::vector<std::s
 void CsvWriter::row(std::span<const double> fields) {
   std::vector<std::string> texts;
   texts.reserve(fields.size());
-  for (const double value : fields) texts.push_back(format_number(value));
+  for (const double value : fields) {
+    const bool is_whole = value == std::trunc(value) && value != 0.0 && std::abs(value) < 1e15;
+    texts.push_back(std::isnan(value) ? "" : is_whole ? format_integer(static_cast<long long>(value)) : format_number(value));
+  }
   write_row(texts);
 }
 

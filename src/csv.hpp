@@ -46,7 +46,7 @@ struct Table {
   const std::string& text(int row, int column) const { return rows[row].fields[column]; }
   // A finite number; anything else throws.
   double finite_number(int row, int column) const;
-  // The same, but nan, inf and -inf are numbers too.
+  // The same, but nan, inf and -inf are numbers too, and an empty field is nan.
   double number(int row, int column) const;
   // number() down a column.
   std::vector<double> numbers(std::string_view column_name) const;
@@ -90,6 +90,7 @@ class CsvWriter {
   void row(const Fields&... fields) {
     write_row({csv_field(fields)...});
   }
+  // nan is an empty field, and whole numbers have all their digits: 100000, not 1e+05.
   void row(std::span<const double> fields);
 
   void flush();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <span>
 
 #include "rheology.hpp"
 
@@ -13,16 +14,67 @@ namespace {
 
 constexpr const char *trajectory_name = "trajectory.csv", *steps_name = "steps.csv";
 
-const std::vector<std::string> trajectory_columns = {"step", "time", "body", "x",  "y",  "theta",
-                                                     "ux",   "uy",   "omega", "fx", "fy", "torque"};
-std::vector<std::string> steps_columns(StepsColumns columns) {
-  std::vector<std::string> names = {"step",           "time",         "dt",            "gmres_iterations",
-                                    "ncp_iterations", "contacts",     "min_gap",       "density_tail",
-                                    "stokes_solves",  "smallest_multiplier", "largest_multiplier"};
-  if (columns == StepsColumns::between_walls)
-    names.insert(names.end(), {"inner_torque", "outer_torque", "order_parameter", "effective_viscosity", "stresslet_shear",
-                               "stresslet_normal_difference", "contact_shear", "contact_normal_difference"});
+struct Column {
+  const char *name, *meaning;
+};
+
+constexpr Column trajectory_table[] = {
+    {"step", "number of the step, from 0"},
+    {"time", "at its start"},
+    {"body", "row of the bodies' file, from 0"},
+    {"x", "centre, length"},
+    {"y", "centre, length"},
+    {"theta", "angle of the semi-axis a, radians, whole turns counted"},
+    {"ux", "velocity during the step, length/time"},
+    {"uy", "velocity during the step, length/time"},
+    {"omega", "angular velocity during the step, 1/time"},
+    {"fx", "sum of the contact forces on the body"},
+    {"fy", "sum of the contact forces on the body"},
+    {"torque", "of these forces about the centre"},
+};
+constexpr Column steps_table[] = {
+    {"step", "number of the step, from 0"},
+    {"time", "at its start"},
+    {"dt", "length of the step, time"},
+    {"gmres_iterations", "in all Stokes solves of the step, rejected attempts included"},
+    {"ncp_iterations", "linear complementarity problems solved, rejected attempts included"},
+    {"contacts", "pairs in contact"},
+    {"min_gap", "smallest distance of two bodies at the start of the step, negative if they overlap, inf for one body"},
+    {"density_tail", "largest share of a density's energy in the top third of its Fourier modes: resolved far below 1e-3"},
+    {"stokes_solves", "Stokes problems solved"},
+    {"smallest_multiplier", "of the contacts: a force, or with contact = stiv the factor of a volume's gradient"},
+    {"largest_multiplier", "of the contacts"},
+};
+constexpr Column walls_table[] = {
+    {"inner_torque", "of the inner wall on the fluid about its centre"},
+    {"outer_torque", "of the outer wall on the fluid about its centre"},
+    {"order_parameter", "mean of cos 2 (theta - phi - pi/2), phi the polar angle of the centre: 1 along circles, -1 across"},
+    {"effective_viscosity", "torque of the inner wall over that without bodies"},
+    {"stresslet_shear", "the bodies' stresslets per area between the walls: stress r theta"},
+    {"stresslet_normal_difference", "the same: stress theta theta less stress r r"},
+    {"contact_shear", "the contact forces' part of the stress r theta"},
+    {"contact_normal_difference", "the same: stress theta theta less stress r r"},
+};
+
+std::vector<std::string> names_of(std::span<const Column> columns) {
+  std::vector<std::string> names;
+  for (const Column& column : columns) names.push_back(column.name);
   return names;
+}
+
+const std::vector<std::string> trajectory_columns = names_of(trajectory_table);
+
+std::vector<std::string> steps_columns(StepsColumns columns) {
+  std::vector<std::string> names = names_of(steps_table);
+  if (columns == StepsColumns::between_walls)
+    for (const std::string& name : names_of(walls_table)) names.push_back(name);
+  return names;
+}
+
+std::string help_of(std::span<const Column> columns) {
+  std::string text;
+  for (const Column& column : columns) text += concat("  ", padded(column.name, 29), column.meaning, "\n");
+  return text;
 }
 
 // Why a table that begins with these columns cannot be cut to so many bytes and continued, or nothing.
@@ -128,6 +180,7 @@ void Recorder::write(const StepRecord& record) {
   const StepOutcome* outcome = record.outcome;
   std::vector<Row> rows;
   for (std::size_t i = 0; i < record.bodies.size(); ++i) {
+    if (record.bodies[i].points > 0) continue;  // a wall
     const Pose& pose = record.bodies[i].pose;
     Row row = {step, record.time, static_cast<double>(i), pose.centre.real(), pose.centre.imag(), pose.angle};
     if (outcome) {
@@ -182,6 +235,16 @@ void Recorder::sync() {
 void Recorder::close() {
   trajectory_.close();
   steps_.close();
+}
+
+std::string columns_help() {
+  return concat("trajectory.csv has a row for every body and every output_every-th step, the first and the last, and for the\n"
+                "final configuration. Walls have none.\n\n",
+                help_of(trajectory_table),
+                "\nsteps.csv has a row for every step and one for the final configuration.\n\n", help_of(steps_table),
+                "\nand in an annulus\n\n", help_of(walls_table),
+                "\nA field is empty where there is nothing to tell: of the step from the final configuration, which is not\n"
+                "made, and of multipliers without contacts. Units are those of the case, with viscosity 1.\n");
 }
 
 }  // namespace stokes

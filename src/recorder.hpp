@@ -1,4 +1,4 @@
-// Writes a run as it goes: trajectory.csv and steps.csv in one folder, every field a number.
+// Writes a run as it goes: trajectory.csv and steps.csv in one folder, every field a number or empty.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 // trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque
 //   The configuration at the start of a step, the velocities and the contact forces and torques that moved
 //   it; every `output_every`-th step, the first and the last; the final configuration is one more step
-//   whose other fields are nan.
+//   whose other fields are empty. Walls are no bodies of it.
 // steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,
 //            smallest_multiplier,largest_multiplier
-//   A row for every step and one for the final configuration. The multipliers are those of the step's contacts, nan
+//   A row for every step and one for the final configuration. The multipliers are those of the step's contacts, empty
 //   without any: forces, or, with interference volumes, factors of the volumes' gradients. Between walls there are more
-//   columns: inner_torque and outer_torque, of the inner wall (the last body) and of the container on the fluid, about
+//   columns: inner_torque and outer_torque, of the inner wall and of the container on the fluid, about
 //   their centres; and order_parameter, effective_viscosity, stresslet_shear, stresslet_normal_difference,
 //   contact_shear, contact_normal_difference (rheology.hpp).
 enum class StepsColumns { unbounded, between_walls };
@@ -70,5 +70,8 @@ class Recorder {
   std::vector<Row> skipped_;  // rows of the latest step that was left out; written if it is the last
   Position position_;         // after the latest record
 };
+
+// What every column of the two tables means, for users.
+std::string columns_help();
 
 }  // namespace stokes

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output_folder.hpp"
+#include "recorder.hpp"
 #include "run.hpp"
 
 namespace {
@@ -27,8 +28,12 @@ int run(const std::vector<std::string>& arguments, const std::string& command) {
 
 int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments == std::vector<std::string>{"--help", "columns"}) {
+    std::printf("%s", columns_help().c_str());
+    return 0;
+  }
   if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h") {
-    std::fprintf(arguments.empty() ? stderr : stdout, "usage: simulate CASE.txt [key=value ...]\n\n%s", case_help().c_str());
+    std::fprintf(arguments.empty() ? stderr : stdout, "usage: simulate CASE.txt [key=value ...]\n       simulate --help columns   of the results\n\n%s", case_help().c_str());
     return arguments.empty() ? 2 : 0;
   }
   try {

@@ -227,3 +227,23 @@ TEST_CASE("a file is replaced as a whole or not at all") {
                        doctest::Contains("taken: cannot write"), NumericalError);
   CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 2);
 }
+
+TEST_CASE("rows of numbers have empty fields for nan and all digits of whole numbers, which read back the same") {
+  const Folder folder;
+  const std::filesystem::path path = folder.path / "numbers.csv";
+  const std::vector<double> row = {100000.0, std::nan(""), -7e14, 1e15, 1e300, -0.0, 0.1, 2.0};
+  CsvWriter writer(path, {"a", "b", "c", "d", "e", "f", "g", "h"});
+  writer.row(row);
+  writer.close();
+  std::ifstream file(path);
+  std::string header, line;
+  std::getline(file, header), std::getline(file, line);
+  CHECK(line == "100000,,-700000000000000,1e+15,1e+300,-0,0.1,2");
+  const Table table = read_csv(path);
+  for (int k = 0; k < static_cast<int>(row.size()); ++k) {
+    const double back = table.number(0, k);
+    CHECK((std::isnan(back) ? std::isnan(row[k]) : back == row[k]));
+    CHECK(std::signbit(back) == std::signbit(row[k]));
+  }
+  CHECK_THROWS_AS(table.finite_number(0, 1), InputError);
+}

@@ -79,7 +79,8 @@ TEST_CASE("trajectory.csv and steps.csv begin with their columns and have the do
   CHECK(largest_difference(results.step_column("time"), {0, 0.1, 0.2, 0.3}) < 1e-15);
   for (const Table& table : {results.trajectory, results.steps})
     for (const std::string& name : table.header) {
-      const Numbers values = table.numbers(name);  // throws for a field that is not a number
+      const Numbers values = table.numbers(name);  // throws for a field that is neither a number nor empty
+      CHECK(content_of(table.file).find("nan") == std::string::npos);
       const bool known = name == "step" || name == "time" || name == "body" || name == "x" || name == "y" ||
                          name == "theta" || name == "min_gap";
       const bool of_contacts = name.ends_with("_multiplier");  // there are none
@@ -372,4 +373,32 @@ TEST_CASE("adaptive steps are cut at reverse_at and end_time, and get past what 
     CHECK(dt[k] <= 1.0);
     CHECK(gaps[k + 1] >= 0.02 * (1.0 - 1e-4));
   }
+}
+
+TEST_CASE("fields of the step that is not made are empty in the last rows") {
+  const Workspace here(case_text("shear", 8, 0.1, 0.2), one_disc);
+  run(here);
+  CHECK(content_of(here.path() / "out/trajectory.csv").ends_with(",,,,,,\n"));
+  CHECK(contains(content_of(here.path() / "out/steps.csv"), "\n2,0.2,,,,,inf,,,,\n"));
+}
+
+TEST_CASE("--help columns explains every column that a run writes, and so does the page for users") {
+  const Workspace here("bodies = bodies.csv\ngeometry = annulus\ninner_radius = 1\nouter_radius = 3\nwall_points = 32\n"
+                       "outer_angular_velocity = .5\npoints_per_body = 16\ntime_step = .1\nend_time = .1\noutput = out\n",
+                       "a,b,x,y,theta\n.3,.2,2,0,0\n");
+  const Results results = run(here);
+  const ProgramRun help = here.run({"--help", "columns"});
+  CHECK(help.status == 0);
+  const std::string page = content_of("paper/RESULTS.md");
+  for (const Table& table : {results.trajectory, results.steps})
+    for (const std::string& name : table.header) {
+      CAPTURE(name);
+      const std::size_t at = help.output.find(concat("\n  ", padded(name, 29)));
+      REQUIRE(at != std::string::npos);
+      const std::size_t meaning = at + 3 + 29, end = help.output.find('\n', meaning);
+      CHECK(end > meaning + 5);
+      CHECK(contains(page, concat("| `", name, "` | ", help.output.substr(meaning, end - meaning), " |")));
+    }
+  // The inner wall is no body of the table.
+  CHECK(results.trajectory.numbers("body") == Numbers{0, 0});
 }
