@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -162,7 +163,7 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
     if (!task.starts_with("case=")) throw InputError(usage);
     const std::string name = task.substr(5);
     if (std::find(experiment.cases.begin(), experiment.cases.end(), name) == experiment.cases.end())
-      throw InputError(concat("no case ", quote(name), "; did you mean ", nearest_name(name, experiment.cases), "?"));
+      throw InputError(concat("no case ", quote(name), "; ", suggestion(name, experiment.cases), "`list` prints their names"));
     set_thread_count(threads);
     experiment.run(name, Results(root, experiment.name, settings, command_line({argv, argv + argc})));
     return 0;
@@ -172,6 +173,9 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "%s: there is not enough memory\n", experiment.name.c_str());
+    return 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", experiment.name.c_str(), error.what());
     return 3;

@@ -40,6 +40,25 @@ constexpr Column columns[] = {
     {"fixed", false, "1: held in place, in an annulus only"},
 };
 
+// Names what looks like a table of another kind, by its first line that is no comment.
+void check_form(std::string_view content, const std::string& file_name) {
+  int number = 0;
+  for (const std::string_view line : split(content, '\n')) {
+    ++number;
+    const std::string_view text = trim(line);
+    if (text.empty() || text.front() == '#') continue;
+    const auto has = [&](char c) { return text.find(c) != std::string_view::npos; };
+    const std::string where = concat(file_name, ":", number);
+    if (has(';')) refuse(where, "the columns are separated by semicolons; write commas, and points in decimal numbers.");
+    if (!has(',') && (has('\t') || has(' ')))
+      refuse(where, "the columns are separated by ", has('\t') ? "tabs" : "spaces", "; write commas.");
+    const auto fields = split(text, ',');
+    if (std::all_of(fields.begin(), fields.end(), [](std::string_view field) { return parse_number(trim(field)).has_value(); }))
+      refuse(where, "the first line has numbers only; a line above it must name the columns, as in a,b,x,y,theta.");
+    return;
+  }
+}
+
 void check_columns(const Table& table) {
   std::vector<std::string> known, missing;
   for (const Column& column : columns) {
@@ -48,8 +67,8 @@ void check_columns(const Table& table) {
   }
   for (const std::string& name : table.header) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    refuse(table.where_header(), "unknown column ", quote(name), "; did you mean ",
-         quote(nearest_name(name, known)), "? The columns are ", join(known, ","), ".");
+    refuse(table.where_header(), "unknown column ", quote(name), "; ",
+           suggestion(name, known), "the columns are ", join(known, ","), ".");
   }
   if (!missing.empty()) {
     refuse(table.where_header(), "the header lacks the required column", missing.size() > 1 ? "s " : " ",
@@ -120,8 +139,8 @@ void check_net_force(const Table& table, const Suspension& bodies) {
   }
   constexpr double tolerance = 1e-12;
   if (std::abs(net) <= tolerance * magnitudes) return;
-  refuse(table.where_header(), "the external forces sum to (", net.real() * largest, ", ",
-       net.imag() * largest, "), ", std::abs(net) / magnitudes,
+  refuse(table.where_header(), "the external forces sum to (", brief(net.real() * largest), ", ",
+       brief(net.imag() * largest), "), ", brief(std::abs(net) / magnitudes),
        " of the sum of their magnitudes against at most ", tolerance,
        " in unbounded flow, where a net force has no bounded flow; subtract the mean force "
        "from every body.");
@@ -129,7 +148,7 @@ void check_net_force(const Table& table, const Suspension& bodies) {
 
 [[noreturn]] void refuse_pair(const Table& table, const ClosestPair& pair, const char* which) {
   refuse(table.where(pair.b), "bodies ", pair.a, " and ", pair.b, " (counted from 0) ",
-         pair.gap < 0.0 ? concat("overlap by ", -pair.gap) : std::string("touch"), which, "; move them apart.");
+         pair.gap < 0.0 ? concat("overlap by ", brief(-pair.gap)) : std::string("touch"), which, "; move them apart.");
 }
 
 // A pile of many bodies, as from a wrong unit of length or rows that are there twice, has too many pairs to look at
@@ -180,8 +199,8 @@ void check_walls(const Table& table, const Suspension& bodies, const Annulus& an
   const std::string wall = is_outer ? concat("the outer wall of radius ", outer.radius)
                                     : concat("the inner wall of radius ", annulus.inner_radius);
   const std::string depth = smallest == 0.0 ? concat("touches ", wall)
-                            : is_outer      ? concat("reaches ", -smallest, " beyond ", wall)
-                                            : concat("overlaps ", wall, " by ", -smallest);
+                            : is_outer      ? concat("reaches ", brief(-smallest), " beyond ", wall)
+                                            : concat("overlaps ", wall, " by ", brief(-smallest));
   refuse(table.where(worst), "body ", worst, " (counted from 0) ", depth,
          ", the smallest distance to a wall of all; move it ", is_outer ? "inwards." : "outwards.");
 }
@@ -193,6 +212,7 @@ Suspension read_bodies(const std::filesystem::path& path) {
 }
 
 Suspension parse_bodies(std::string_view content, const std::string& file_name) {
+  check_form(content, file_name);
   const Table table = parse_csv(content, file_name);
   Suspension bodies = read_table(table);
   check_all_free(table, bodies);
@@ -202,6 +222,7 @@ Suspension parse_bodies(std::string_view content, const std::string& file_name) 
 }
 
 Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus) {
+  check_form(content, file_name);
   const Table table = parse_csv(content, file_name);
   Suspension bodies = read_table(table);
   check_walls(table, bodies, annulus);

@@ -62,6 +62,8 @@ std::string as_written(const std::string& value) {
   return text + '"';
 }
 
+std::string_view trim_dashes(std::string_view word) { return word.substr(std::min(word.find_first_not_of('-'), word.size())); }
+
 // Adds `key = value`; a key that `given` has already is an error.
 void add_setting(std::string_view setting, const std::string& where, bool in_argument, GivenKeys& given) {
   for (const char c : setting) {
@@ -71,13 +73,15 @@ void add_setting(std::string_view setting, const std::string& where, bool in_arg
     }
   }
   const auto equals = setting.find('=');
-  if (equals == std::string_view::npos) fail(where, quote(setting), " has no '='; write key = value.");
+  if (equals == std::string_view::npos)
+    fail(where, quote(setting), " has no '='; write key = value.",
+         setting.find(',') == std::string_view::npos ? "" : " A table is no case: name it there, as in bodies = FILE.csv.");
   const std::string key(trim(setting.substr(0, equals)));
   const std::string value = unquoted(trim(setting.substr(equals + 1)), where);
   const auto names = key_names();
   if (std::find(names.begin(), names.end(), key) == names.end()) {
-    fail(where, "unknown key ", quote(key), "; did you mean ", quote(nearest_name(key, names)),
-         "? --help lists the keys.");
+    fail(where, "unknown key ", quote(key), "; ", key.starts_with('-') ? "keys have no dashes; " : "", hint_for(key),
+         suggestion(trim_dashes(key), names), "--help lists the keys.");
   }
   if (value.empty()) fail(where, key, " has no value; write ", key, " = value.");
   const auto [entry, is_new] = given.try_emplace(key, GivenValue{value, where, in_argument});
@@ -229,7 +233,15 @@ Case parse_case(std::string_view content, const std::filesystem::path& file, con
 }
 
 Suspension read_suspension(const Case& parameters) {
-  return parse_suspension(parameters, read_text_file(parameters.bodies_path(), "the bodies' file"));
+  const std::filesystem::path path = parameters.bodies_path(), beside = path.parent_path();
+  if (!std::filesystem::exists(path))
+    fail(path.string(), "cannot open the bodies' file: there is none; a relative name begins in the folder of the case file",
+         beside.empty() ? "." : concat(", ", quote(beside.string()), "."),
+         std::filesystem::exists(parameters.bodies)
+             ? concat(" In the working directory there is one: write bodies = ",
+                      std::filesystem::absolute(parameters.bodies).string())
+             : "");
+  return parse_suspension(parameters, read_text_file(path, "the bodies' file"));
 }
 
 namespace {

@@ -56,6 +56,8 @@ std::vector<std::string> names_of(const Words<Value>& words) {
 template <class Value>
 Value parse_value(const std::string& key, const GivenValue& given) {
   if constexpr (std::is_same_v<Value, std::string>) {
+    if (given.text == "~" || given.text.starts_with("~/"))
+      refuse(key, given, "begins with '~', which only a shell replaces; write the whole name of the folder.");
     return given.text;
   } else if constexpr (std::is_same_v<Value, double>) {
     if (const auto number = parse_number(given.text)) return *number;
@@ -82,8 +84,7 @@ Value parse_value(const std::string& key, const GivenValue& given) {
       if (name == given.text) return value;
     const auto names = names_of(words);
     refuse(key, given,
-           concat("is unknown: it can be ", join(names, " or "), "; did you mean ",
-                  quote(nearest_name(given.text, names)), "?"));
+           concat("is unknown: it can be ", join(names, " or "), "; ", hint_for(given.text), suggestion(given.text, names), "--help explains them."));
   }
 }
 
@@ -173,6 +174,31 @@ CaseKey optional(std::string name, std::optional<Value> Case::*member, std::stri
 }
 
 }  // namespace
+
+std::string hint_for(std::string_view word) {
+  constexpr std::pair<std::string_view, std::string_view> hints[] = {
+      {"dt", "the length of a step is time_step; "},
+      {"tmax", "the end is end_time; "},
+      {"tend", "the end is end_time; "},
+      {"steps", "the number of steps follows from end_time and time_step; "},
+      {"tol", "the tolerance of a solve is gmres_tolerance; "},
+      {"delta", "the separation is min_separation_length, or min_separation in units of h; "},
+      {"n", "the nodes on a body are points_per_body; "},
+      {"radius", "bodies have the columns a and b, walls have inner_radius and outer_radius; "},
+      {"omega", "walls have inner_angular_velocity and outer_angular_velocity; "},
+      {"viscosity", "the viscosity is 1, which sets the unit of force; "},
+      {"seed", "nothing is random; "},
+      {"period", "there are no periodic domains; "},
+      {"periodic", "there are no periodic domains; "},
+      {"box", "there are no boxes; "},
+      {"channel", "there are no channels; walls are those of geometry = annulus; "},
+      {"poiseuille", "there is no such flow; "},
+      {"couette", "the flow between cylinders is geometry = annulus with walls that turn; "},
+  };
+  for (const auto& [known, hint] : hints)
+    if (edit_distance(word, known) <= (known.size() > 5 ? 1 : 0)) return std::string(hint);
+  return {};
+}
 
 const std::vector<CaseKey>& case_keys() {
   static const std::vector<CaseKey> table = {

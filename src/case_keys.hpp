@@ -56,6 +56,9 @@ template <class... Parts>
   throw InputError(concat(where, ": ", parts...));
 }
 
+// What to write for a word of other programs, as a sentence and a space; nothing for other words.
+std::string hint_for(std::string_view word);
+
 // `where: key = 'value' why`.
 [[noreturn]] inline void refuse(const std::string& key, const GivenValue& given, std::string_view why) {
   fail(given.where, key, " = ", quote(given.text), " ", why);

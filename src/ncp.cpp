@@ -34,7 +34,7 @@ using Identity = KnownContacts::Contact;
 Identity identity(const ContactConstraint& c) { return {c.a, c.b, c.region}; }
 
 std::string name(const ContactConstraint& c) {
-  return concat(pair_name(c.a, c.b), " (constraint ", c.value, ", tolerance ", c.tolerance, ")");
+  return concat(pair_name(c.a, c.b), " (constraint ", brief(c.value), ", tolerance ", brief(c.tolerance), ")");
 }
 
 class Iteration {
@@ -101,15 +101,15 @@ class Iteration {
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(M(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint), " does not part them (mobility ",
-                      M(l, l), "): the points per body do not resolve so small a gap; try refine = near");
+                      brief(M(l, l)), "): the points per body do not resolve so small a gap; try refine = near");
     if (const double power = contact_power(); power < 0.0)
-      return concat("the contact forces do negative work (power ", power, ") on the bodies, worst of them ",
+      return concat("the contact forces do negative work (power ", brief(power), ") on the bodies, worst of them ",
                     name(worst()->constraint), ": the points per body do not resolve so small a gap; try refine = near");
     for (Eigen::Index l = 0; check_symmetry && l < m; ++l)
       for (Eigen::Index k = 0; k < l; ++k)
         if (std::abs(M(l, k) - M(k, l)) > 0.1 * std::sqrt(M(l, l) * M(k, k)))
           return concat("the contacts of ", name(candidates_[l].constraint), " and of ", name(candidates_[k].constraint),
-                        " act on each other by mobilities of ", M(l, k), " and ", M(k, l),
+                        " act on each other by mobilities of ", brief(M(l, k)), " and ", brief(M(k, l)),
                         ", which should be equal: the points per body do not resolve so small a gap; try refine = near");
     return {};
   }

@@ -25,7 +25,7 @@ constexpr double resolved_tail = 1e-3;  // share of the density's energy in its 
 void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separation, Progress& progress) {
   const ClosestPair closest = smallest_gap(bodies);
   if (c.contact != ContactModel::none && closest.gap < separation)
-    progress.message(concat("warning: ", pair_name(closest.a, closest.b), " start ", closest.gap,
+    progress.message(concat("warning: ", pair_name(closest.a, closest.b), " start ", brief(closest.gap),
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
 }
 
@@ -41,12 +41,12 @@ void warn_of_values(const Case& c, const Suspension& bodies, Progress& progress)
   for (const std::string& warning : c.warnings) progress.message(concat("warning: ", warning));
   constexpr double large_step = 0.5;
   if (const double strain = largest_rate(c, bodies) * c.time_step; !c.adaptive && strain > large_step)
-    progress.message(concat("warning: in a step of ", c.time_step, " the flow deforms by ", strain, " (more than ", large_step,
-                            "), too much for forward Euler steps; try time_step = ", 0.1 * c.time_step / strain));
+    progress.message(concat("warning: in a step of ", c.time_step, " the flow deforms by ", brief(strain), " (more than ", large_step,
+                            "), too much for forward Euler steps; try time_step = ", brief(0.1 * c.time_step / strain)));
   const auto turned = [](const Body& body) { return std::abs(body.pose.angle) > 2.0 * pi; };
   if (const auto first = std::find_if(bodies.begin(), bodies.end(), turned); first != bodies.end())
     progress.message(concat("warning: theta = ", first->pose.angle, " of body ", first - bodies.begin(),
-                            " is more than a turn; angles are in radians, a right angle is ", 0.5 * pi));
+                            " is more than a turn; angles are in radians, a right angle is ", brief(0.5 * pi)));
 }
 
 // Writes the flow of the first state at or after each of the times asked for, where its file is missing.
@@ -221,7 +221,7 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
       if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
         warned = true;
         progress.message(concat("warning: at time ", record.time, " the top third of the Fourier modes holds ",
-                                record.outcome->density_tail, " of a density's energy (more than ", resolved_tail,
+                                brief(record.outcome->density_tail), " of a density's energy (more than ", resolved_tail,
                                 "); more points_per_body would resolve it"));
       }
     });

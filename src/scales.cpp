@@ -23,7 +23,7 @@ double smallest_axis(const Suspension& bodies) {
 std::string judged(const std::string& what, double speed, double length) {
   for (const double x : {std::abs(speed), std::abs(speed) / length}) {
     if (x == 0.0 || (x >= smallest && x <= largest)) continue;
-    return concat(what, " makes velocities of ", speed, " over lengths of ", length, ", which are beyond ",
+    return concat(what, " makes velocities of ", brief(speed), " over lengths of ", brief(length), ", which are beyond ",
                   x < smallest ? smallest : largest, "; choose other units of time, length or force.");
   }
   return {};
@@ -37,7 +37,7 @@ std::string lost_precision(const Suspension& bodies) {
     const Pose& pose = bodies[i].pose;
     const double distance = std::abs(pose.centre);
     if (!(distance <= limit))
-      return concat("body ", i, " is ", distance, " away from the origin, more than ", farthest,
+      return concat("body ", i, " is ", brief(distance), " away from the origin, more than ", farthest,
                     " of the smallest semi-axis: its position is not known precisely; move the origin to the bodies.");
     if (!(std::abs(pose.angle) <= farthest))
       return concat("body ", i, " has the angle ", pose.angle, ", more than ", farthest,

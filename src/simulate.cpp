@@ -3,6 +3,7 @@
 // signal N (129 SIGHUP, 130 SIGINT, 141 SIGPIPE, 143 SIGTERM). An unfinished run leaves a checkpoint, from which the same command goes on.
 
 #include <cstdio>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,9 @@ int main(int argc, char** argv) {
   } catch (const InputError& error) {
     std::fprintf(stderr, "simulate: %s\n", error.what());
     return 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "simulate: there is not enough memory; fewer points_per_body, wall_points or field_points need less\n");
+    return 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "simulate: %s\n", error.what());
     return 3;

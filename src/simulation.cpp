@@ -108,7 +108,7 @@ std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair
   }
   if (const std::string why = lost_precision(bodies); !why.empty()) return why;
   if (!(closest.gap < 0.0)) return {};
-  return concat(pair_name(closest.a, closest.b), " overlap by ", -closest.gap, "; try a smaller time_step",
+  return concat(pair_name(closest.a, closest.b), " overlap by ", brief(-closest.gap), "; try a smaller time_step",
                 contact == ContactModel::none ? ", or contact = gap" : "");
 }
 
@@ -155,7 +155,7 @@ class Run {
     try {
       const double limit = options_.adaptive ? stepper_.geometric_step_limit(driving) : 0.0;
       if (const double least = smallest_step * options_.time_step; options_.adaptive && !(limit >= least)) {
-        outcome.failure = concat("bodies turn by 0.2 or close half a width in ", limit, ", below the smallest step of ",
+        outcome.failure = concat("bodies turn by 0.2 or close half a width in ", brief(limit), ", below the smallest step of ",
                                  least, "; try a smaller time_step");
         return outcome;
       }

@@ -40,6 +40,17 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+// A thousand for each edit without regard to case. An abbreviation (min_sep) is a nearer relative than a word with some
+// of the same letters: it scores between one edit and two, the closest length first. A longer word than any name is cut.
+long distance_score(std::string_view word, const std::string& name) {
+  constexpr std::size_t longest = 64;
+  const std::string given = lower_case(word.substr(0, longest)), known = lower_case(name);
+  const long score = 1000L * edit_distance(given, known);
+  const bool part = known.find(given) != std::string::npos || given.find(known) != std::string::npos;
+  if (!part || given.size() < 3 || known.size() < 3) return score;
+  return std::min(score, 1500L + std::abs(static_cast<long>(given.size()) - static_cast<long>(known.size())));
+}
+
 }  // namespace
 
 std::string format_number(double value) {
@@ -51,6 +62,12 @@ std::string format_number(double value) {
 std::string format_integer(long long value) {
   char buffer[32];
   return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+}
+
+std::string brief(double value) {
+  if (!std::isfinite(value)) return format_number(value);
+  char buffer[32];
+  return {buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4).ptr};
 }
 
 std::optional<double> parse_number(std::string_view token) {
@@ -116,26 +133,19 @@ int edit_distance(std::string_view from, std::string_view to) {
 }
 
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names) {
-  // An abbreviation (min_sep) is a nearer relative than a word with some of the same letters: it scores
-  // between one edit and two, the closest length first. A longer word than any name is cut.
-  constexpr std::size_t longest = 64;
-  const std::string given = lower_case(word.substr(0, longest));
   std::string best;
   long best_score = 0;
   for (const std::string& name : names) {
-    const std::string known = lower_case(name);
-    long score = 1000L * edit_distance(given, known);
-    const bool part = known.find(given) != std::string::npos || given.find(known) != std::string::npos;
-    if (part && given.size() >= 3 && known.size() >= 3) {
-      const long difference = static_cast<long>(given.size()) - static_cast<long>(known.size());
-      score = std::min(score, 1500L + std::abs(difference));
-    }
-    if (best.empty() || score < best_score) {
-      best = name;
-      best_score = score;
-    }
+    const long score = distance_score(word, name);
+    if (best.empty() || score < best_score) best = name, best_score = score;
   }
   return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(word, names);
+  if (nearest.empty() || distance_score(word, nearest) > 2000) return {};
+  return concat("did you mean ", quote(nearest), "? ");
 }
 
 std::string read_text_file(const std::filesystem::path& path, std::string_view what) {
@@ -157,6 +167,10 @@ std::string read_text_file(const std::filesystem::path& path, std::string_view w
     throw InputError(
         concat(name, ": cannot read ", what, ": ", std::generic_category().message(errno), "."));
   if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw InputError(concat(name, ": ", what, " is a text in UTF-16; save it as UTF-8 or plain text."));
+  // Lines of old Macintosh files.
+  if (text.find('\n') == std::string::npos) std::replace(text.begin(), text.end(), '\r', '\n');
   return text;
 }
 

@@ -16,6 +16,8 @@ namespace stokes {
 // Shortest decimal form that reads back to the same double; nan, inf and -inf are spelled so.
 std::string format_number(double value);
 std::string format_integer(long long value);
+// To four digits, for messages.
+std::string brief(double value);
 template <std::integral Integer>
 std::string format_number(Integer value) {
   return format_integer(static_cast<long long>(value));
@@ -45,9 +47,12 @@ int edit_distance(std::string_view from, std::string_view to);
 // The name that `word` was most likely meant to be: smallest edit distance without regard to case, a
 // name that contains the word (or the reverse) counting as near; the first of equals.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
+// "did you mean 'name'? " with the nearest name, if it is at most two letters away or one contains the other; if not,
+// nothing.
+std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
-// The content of a file without its UTF-8 byte order mark. Throws InputError for a file that is missing,
-// is a folder or cannot be read; `what` names its role, as in "the case file".
+// The content of a file without its UTF-8 byte order mark, line ends of '\r' alone as '\n'. Throws InputError for a file
+// that is missing, is a folder, cannot be read or is UTF-16; `what` names its role, as in "the case file".
 std::string read_text_file(const std::filesystem::path& path, std::string_view what);
 
 // The parts one after the other: text as it is, numbers by format_number.

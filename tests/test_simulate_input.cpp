@@ -258,7 +258,7 @@ TEST_CASE("bodies that overlap without a contact model end the run with step, ti
   CHECK(depth > 0.0);
   CAPTURE(run.errors);
   CHECK(contains(run.errors, "step 2, time 2: "));
-  CHECK(contains(run.errors, concat("bodies 0 and 1 overlap by ", depth)));
+  CHECK(contains(run.errors, concat("bodies 0 and 1 overlap by ", brief(depth))));
   CHECK(here.run({"case.txt", "contact=gap"}).status == 0);
 }
 
@@ -287,17 +287,16 @@ TEST_CASE("an unsolved Stokes problem ends the run with step, time and cause") {
   CHECK(contains(run.errors, "1e-17"));
 }
 
-TEST_CASE("positions that overflow end the run as a numerical failure, with every row written") {
+TEST_CASE("positions beyond all bounds end the run as a numerical failure, with every row written") {
   const std::string one = "a,b,x,y,theta\n1,1,0,1e3,0\n", two = one + "1,1,0,0,0\n";
   for (const std::string& bodies : {one, two})
     for (const char* contact : {"contact=none", "contact=gap"}) {
       const Workspace here = workspace(case_text("extension", 16, 1, 4), bodies);
-      const ProgramRun run = here.run({"case.txt", "rate=1e152", contact});
+      const ProgramRun run = here.run({"case.txt", "rate=1e50", contact});
       CAPTURE(std::string(contact));
       CAPTURE(run.errors);
       CHECK(run.status == 3);
-      CHECK(contains(run.errors, "simulate: step "));
-      CHECK(contains(run.errors, ", time "));
+      CHECK(contains(run.errors, "simulate: step 1, time 1: "));
       const Results results = here.results();
       CHECK(std::isnan(results.step_column("dt").back()));
       CHECK(std::isnan(results.body_column(0, "ux").back()));

@@ -144,3 +144,19 @@ TEST_CASE("a file that cannot be read is an input error that names it") {
   CHECK_THROWS_WITH_AS(read_text_file(folder / "not-there-5d1c.txt", "the case file"),
                        doctest::Contains("not-there-5d1c.txt: cannot open the case file"), InputError);
 }
+
+TEST_CASE("a suggestion is at most two letters away, or a part") {
+  const std::vector<std::string> names = {"rate", "time_step", "gmres_tolerance"};
+  CHECK(suggestion("rtae", names) == "did you mean 'rate'? ");
+  CHECK(suggestion("timestp", names) == "did you mean 'time_step'? ");
+  CHECK(suggestion("tolerance", names) == "did you mean 'gmres_tolerance'? ");
+  CHECK(suggestion("viscosity", names) == "");
+  CHECK(suggestion("anything", {}) == "");
+}
+
+TEST_CASE("a number in a message has four digits") {
+  CHECK(brief(0.1733333333) == "0.1733");
+  CHECK(brief(-2.0) == "-2");
+  CHECK(brief(1.23456789e-7) == "1.235e-07");
+  CHECK(brief(std::numeric_limits<double>::quiet_NaN()) == "nan");
+}
