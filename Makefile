@@ -24,7 +24,7 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize fuzz coverage \
+.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize sanitize-threads fuzz coverage \
         clean FORCE
 .SECONDARY:
 
@@ -42,6 +42,7 @@ help:
 	@echo 'make all              build everything'
 	@echo 'make bench            time the kernels, the multipole method and the solver'
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
+	@echo 'make sanitize-threads  the same under the thread sanitizer'
 	@echo 'make fuzz             read mutated input files, FUZZ="count=N seed=S"'
 	@echo 'make coverage         lines and functions of src that the tests reach (gcov)'
 	@echo 'make clean            remove $(BUILD) and $(RESULTS)'
@@ -102,7 +103,7 @@ $(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
 
 # --- tests ----------------------------------------------------------------------------------------------
 test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling $(BUILD)/fig6_injection
-	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests
+	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests $(TESTS_RUN)
 
 FUZZ = count=100000 seed=1
 fuzz: $(BUILD)/fuzz_input
@@ -111,6 +112,11 @@ fuzz: $(BUILD)/fuzz_input
 sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \
 	  SANITIZERS='-fsanitize=address,undefined -fno-sanitize-recover=all' test
+
+# The thread sanitizer knows std::thread, not OpenMP. TESTS_RUN='-sf=*test_fmm*' for some of the tests.
+sanitize-threads:
+	$(MAKE) BUILD=$(BUILD)/sanitize_threads CXXFLAGS='-O1 -g' PORTABLE=1 OPENMP='-pthread -DSTOKES_STD_THREADS' \
+	  SANITIZERS='-fsanitize=thread' test
 
 # Programs that are killed in a test leave no counts.
 GCOV ?= gcov

@@ -53,7 +53,8 @@ void check_form(std::string_view content, const std::string& file_name) {
     if (!has(',') && (has('\t') || has(' ')))
       refuse(where, "the columns are separated by ", has('\t') ? "tabs" : "spaces", "; write commas.");
     const auto fields = split(text, ',');
-    if (std::all_of(fields.begin(), fields.end(), [](std::string_view field) { return parse_number(trim(field)).has_value(); }))
+    const auto is_number = [](std::string_view field) { return parse_number(trim(field)).has_value(); };
+    if (std::all_of(fields.begin(), fields.end(), is_number))
       refuse(where, "the first line has numbers only; a line above it must name the columns, as in a,b,x,y,theta.");
     return;
   }

@@ -62,7 +62,9 @@ std::string as_written(const std::string& value) {
   return text + '"';
 }
 
-std::string_view trim_dashes(std::string_view word) { return word.substr(std::min(word.find_first_not_of('-'), word.size())); }
+std::string_view without_dashes(std::string_view word) {
+  return word.substr(std::min(word.find_first_not_of('-'), word.size()));
+}
 
 // Adds `key = value`; a key that `given` has already is an error.
 void add_setting(std::string_view setting, const std::string& where, bool in_argument, GivenKeys& given) {
@@ -81,7 +83,7 @@ void add_setting(std::string_view setting, const std::string& where, bool in_arg
   const auto names = key_names();
   if (std::find(names.begin(), names.end(), key) == names.end()) {
     fail(where, "unknown key ", quote(key), "; ", key.starts_with('-') ? "keys have no dashes; " : "", hint_for(key),
-         suggestion(trim_dashes(key), names), "--help lists the keys.");
+         suggestion(without_dashes(key), names), "--help lists the keys.");
   }
   if (value.empty()) fail(where, key, " has no value; write ", key, " = value.");
   const auto [entry, is_new] = given.try_emplace(key, GivenValue{value, where, in_argument});

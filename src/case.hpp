@@ -88,8 +88,8 @@ Suspension parse_suspension(const Case& parameters, std::string_view content);
 // The smallest allowed distance between two bodies, in length units. Walls have no part in its unit h.
 double separation_length(const Case& parameters, const Suspension& bodies);
 
-// Every key that does something in the case but `threads`, `output`, `overwrite` and `checkpoint_every` (results are the same
-// bytes whatever these are) with its value, defaults included.
+// Every key that does something in the case but `threads`, `output`, `overwrite` and `checkpoint_every` (results are
+// the same bytes whatever these are) with its value, defaults included.
 Comments describe(const Case& parameters);
 
 // The content of a case file that makes the same case again, but for `threads`, `overwrite` and `checkpoint_every`.

@@ -84,7 +84,8 @@ Value parse_value(const std::string& key, const GivenValue& given) {
       if (name == given.text) return value;
     const auto names = names_of(words);
     refuse(key, given,
-           concat("is unknown: it can be ", join(names, " or "), "; ", hint_for(given.text), suggestion(given.text, names), "--help explains them."));
+           concat("is unknown: it can be ", join(names, " or "), "; ", hint_for(given.text),
+                  suggestion(given.text, names), "--help explains them."));
   }
 }
 
@@ -230,7 +231,8 @@ const std::vector<CaseKey>& case_keys() {
       with_contact(optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix")),
       with_stiv(optional("stiv_vertices", &Case::stiv_vertices,
                          "of each polygon with contact = stiv, 8 to 65536; 0: 4 points_per_body")),
-      with_stiv(optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed")),
+      with_stiv(optional("stiv_gradient", &Case::stiv_gradient,
+                         "of the interference volume; frozen holds the hit time fixed")),
       optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
       optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
       optional("refine", &Case::refine, "near: more nodes where bodies are too close for those they have"),
@@ -238,7 +240,8 @@ const std::vector<CaseKey>& case_keys() {
                "of the flows of all nodes; auto: direct for few of them; fmm to a tenth of gmres_tolerance, 1e-12 at best"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
-      optional("fields_at", &Case::fields_at, "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
+      optional("fields_at", &Case::fields_at,
+               "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
       where({"fields_at", [](const Case& c) { return !c.fields_at.empty(); },
              "does nothing without fields_at; leave it out."},
             optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid")),

@@ -253,7 +253,8 @@ void CsvWriter::row(std::span<const double> fields) {
   texts.reserve(fields.size());
   for (const double value : fields) {
     const bool is_whole = value == std::trunc(value) && value != 0.0 && std::abs(value) < 1e15;
-    texts.push_back(std::isnan(value) ? "" : is_whole ? format_integer(static_cast<long long>(value)) : format_number(value));
+    const std::string number = is_whole ? format_integer(static_cast<long long>(value)) : format_number(value);
+    texts.push_back(std::isnan(value) ? std::string() : number);
   }
   write_row(texts);
 }

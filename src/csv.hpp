@@ -119,9 +119,9 @@ class CsvWriter {
 // When a function that writes returns: once other processes see what it wrote, or once it is on disk.
 enum class Until { visible, on_disk };
 
-// Replaces a file as a whole: a reader sees the old content or the new, never a part, even if this
-// process is killed or, with Until::on_disk, the machine stops (a file <path>.tmp may stay behind). Throws InputError if it cannot be created,
-// NumericalError if it cannot be completed; the old file is then untouched.
+// Replaces a file as a whole: a reader sees the old content or the new, never a part, even if this process is killed
+// or, with Until::on_disk, the machine stops (a file <path>.tmp may stay behind). Throws InputError if it cannot be
+// created, NumericalError if it cannot be completed; the old file is then untouched.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Until until = Until::visible);
 
 }  // namespace stokes

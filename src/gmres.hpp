@@ -24,9 +24,9 @@ struct GmresResult {
 };
 
 // Solves A x = b from the initial guess `guess` (empty: zero) with A M (M^-1 x) = b, M the approximate
-// inverse `preconditioner`, of which only the directions M v are used, so that it may be of low precision. The residual is always that of the unpreconditioned system, and convergence
-// is declared only after it has been evaluated; b = 0 answers x = 0. Deterministic for any number of threads. Ends with
-// an Interruption when a signal asks for it.
+// inverse `preconditioner`, of which only the directions M v are used, so that it may be of low precision. The residual
+// is always that of the unpreconditioned system, and convergence is declared only after it has been evaluated; b = 0
+// answers x = 0. Deterministic for any number of threads. Ends with an Interruption when a signal asks for it.
 GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Vector& b,
                   const Vector& guess, const GmresOptions& options);
 

@@ -238,8 +238,8 @@ void Recorder::close() {
 }
 
 std::string columns_help() {
-  return concat("trajectory.csv has a row for every body and every output_every-th step, the first and the last, and for the\n"
-                "final configuration. Walls have none.\n\n",
+  return concat("trajectory.csv has a row for every body and every output_every-th step, the first and the last, and\n"
+                "for the final configuration. Walls have none.\n\n",
                 help_of(trajectory_table),
                 "\nsteps.csv has a row for every step and one for the final configuration.\n\n", help_of(steps_table),
                 "\nand in an annulus\n\n", help_of(walls_table),

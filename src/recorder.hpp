@@ -51,8 +51,8 @@ class Recorder {
 
   const Position& position() const { return position_; }
 
-  // Other processes see the rows when this returns. NumericalError on a write error: both files and position() are then those
-  // of the record before, and nothing more can be recorded.
+  // Other processes see the rows when this returns. NumericalError on a write error: both files and position() are then
+  // those of the record before, and nothing more can be recorded.
   void record(const StepRecord& record);
 
   // Brings all rows to the disk. NumericalError on a write error.

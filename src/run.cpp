@@ -41,8 +41,8 @@ void warn_of_values(const Case& c, const Suspension& bodies, Progress& progress)
   for (const std::string& warning : c.warnings) progress.message(concat("warning: ", warning));
   constexpr double large_step = 0.5;
   if (const double strain = largest_rate(c, bodies) * c.time_step; !c.adaptive && strain > large_step)
-    progress.message(concat("warning: in a step of ", c.time_step, " the flow deforms by ", brief(strain), " (more than ", large_step,
-                            "), too much for forward Euler steps; try time_step = ", brief(0.1 * c.time_step / strain)));
+    progress.message(concat("warning: in a step of ", c.time_step, " the flow deforms by ", brief(strain),
+                            " (more than ", large_step, "), too much for forward Euler steps; try time_step = ", brief(0.1 * c.time_step / strain)));
   const auto turned = [](const Body& body) { return std::abs(body.pose.angle) > 2.0 * pi; };
   if (const auto first = std::find_if(bodies.begin(), bodies.end(), turned); first != bodies.end())
     progress.message(concat("warning: theta = ", first->pose.angle, " of body ", first - bodies.begin(),

@@ -1,6 +1,7 @@
 // simulate CASE.txt [key=value ...]: runs a suspension described by a case file (case.hpp).
 // Exit status: 0 done; 2 bad input, nothing written; 3 numerical failure, everything up to it written; 128 + N ended by
-// signal N (129 SIGHUP, 130 SIGINT, 141 SIGPIPE, 143 SIGTERM). An unfinished run leaves a checkpoint, from which the same command goes on.
+// signal N (129 SIGHUP, 130 SIGINT, 141 SIGPIPE, 143 SIGTERM). An unfinished run leaves a checkpoint, from which the
+// same command goes on.
 
 #include <cstdio>
 #include <new>
@@ -34,7 +35,9 @@ int main(int argc, char** argv) {
     return 0;
   }
   if (arguments.empty() || arguments[0] == "--help" || arguments[0] == "-h") {
-    std::fprintf(arguments.empty() ? stderr : stdout, "usage: simulate CASE.txt [key=value ...]\n       simulate --help columns   of the results\n\n%s", case_help().c_str());
+    std::fprintf(arguments.empty() ? stderr : stdout,
+                 "usage: simulate CASE.txt [key=value ...]\n       simulate --help columns   of the results\n\n%s",
+                 case_help().c_str());
     return arguments.empty() ? 2 : 0;
   }
   try {
@@ -46,7 +49,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "simulate: %s\n", error.what());
     return 2;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "simulate: there is not enough memory; fewer points_per_body, wall_points or field_points need less\n");
+    std::fprintf(stderr, "simulate: there is not enough memory; try fewer points_per_body or wall_points\n");
     return 3;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "simulate: %s\n", error.what());

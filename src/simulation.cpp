@@ -155,8 +155,8 @@ class Run {
     try {
       const double limit = options_.adaptive ? stepper_.geometric_step_limit(driving) : 0.0;
       if (const double least = smallest_step * options_.time_step; options_.adaptive && !(limit >= least)) {
-        outcome.failure = concat("bodies turn by 0.2 or close half a width in ", brief(limit), ", below the smallest step of ",
-                                 least, "; try a smaller time_step");
+        outcome.failure = concat("bodies turn by 0.2 or close half a width in ", brief(limit),
+                                 ", below the smallest step of ", least, "; try a smaller time_step");
         return outcome;
       }
       double dt = clock_.step(limit);
@@ -167,7 +167,8 @@ class Run {
         outcome = stepper_.attempt(dt, driving, ncp);
       }
       if (!outcome.accepted)
-        outcome.failure += options_.adaptive ? "; the step cannot be halved further" : "; adaptive = yes would halve the step";
+        outcome.failure += options_.adaptive ? "; the step cannot be halved further"
+                                             : "; adaptive = yes would halve the step";
     } catch (const NumericalError& error) {
       outcome.failure = error.what();
     }

@@ -65,8 +65,8 @@ struct RunSummary {
 
 // Every state goes to the observer in order, the final one last, also when the run ends early with a
 // NumericalError: bodies overlap (contact = none), the contact problem or GMRES fails (adaptive: at the
-// smallest step, 1e-6 time_step), or adaptive steps would have to be smaller than that. The message names step, time and cause. Interruption when a signal asks for it, after the
-// state to go on from was observed.
+// smallest step, 1e-6 time_step), or adaptive steps would have to be smaller than that. The message names step, time
+// and cause. Interruption when a signal asks for it, after the state to go on from was observed.
 RunSummary simulate(const Suspension& initial, const SimulationOptions& options, const Observer& observe);
 
 }  // namespace stokes

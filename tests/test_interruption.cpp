@@ -30,8 +30,10 @@ double seconds_of(const std::function<void()>& action) {
 // Rows of discs pressed together so closely that the contact problem of one step takes minutes with lcp_matrix = self.
 Workspace long_step() {
   std::string bodies = "a,b,x,y,theta,force_x\n";
-  for (int i = 0; i < 24; ++i)
-    bodies += concat(".5,.5,", 1.02 * (i % 12), ",", 1.02 * (i / 12), ",0,", i % 12 == 0 ? 50 : i % 12 == 11 ? -50 : 0, "\n");
+  for (int i = 0; i < 24; ++i) {
+    const int force = i % 12 == 0 ? 50 : i % 12 == 11 ? -50 : 0;
+    bodies += concat(".5,.5,", 1.02 * (i % 12), ",", 1.02 * (i / 12), ",0,", force, "\n");
+  }
   return {case_text("none", 64, 0.5, 1, "lcp_matrix = self\nmin_separation_length = .01\n"), bodies};
 }
 
@@ -59,8 +61,8 @@ TEST_CASE("each signal leaves a checkpoint, from which the run goes on to the sa
 
 TEST_CASE("a closed pipe leaves a checkpoint") {
   const Workspace here(case_text("shear", 16, 0.01, 1e3), discs);
-  const std::string command = concat("cd ", shell_word(here.path().string()), " && ", shell_word(simulate_program().string()),
-                                     " case.txt checkpoint_every=0 2>&1 | head -n 1 > first_line");
+  const std::string command = concat("cd ", shell_word(here.path().string()), " && ",
+                                     shell_word(simulate_program().string()), " case.txt checkpoint_every=0 2>&1 | head -n 1 > first_line");
   REQUIRE(std::system(command.c_str()) == 0);
   CHECK(fs::exists(here.path() / "out/checkpoint"));
 }

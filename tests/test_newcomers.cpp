@@ -167,7 +167,8 @@ TEST_CASE("strengths of any scale give the scaled motion, or are refused") {
     return here.results().body_column(0, "uy").front();
   };
   const auto forced = [](double force) {
-    return concat("a,b,x,y,theta,force_x,force_y\n.5,.5,0,0,0,", force, ",", force, "\n.5,.5,1.2,.3,0,", -force, ",", -force, "\n");
+    return concat("a,b,x,y,theta,force_x,force_y\n.5,.5,0,0,0,", force, ",", force, "\n",
+                  ".5,.5,1.2,.3,0,", -force, ",", -force, "\n");
   };
   const double by_flow = moved(shear, discs, {}), by_force = moved(at_rest, forced(1.0), {"contact=none"});
   REQUIRE(std::abs(by_flow) > 1e-4);

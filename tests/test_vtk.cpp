@@ -117,7 +117,7 @@ TEST_CASE("there is a picture of every output_every-th step and of the end, and 
   REQUIRE(here.run({"case.txt", "end_time=3"}).status == 0);
   CHECK(files_in(here.path() / "out/vtk").size() == 7);
   here.write("out/vtk/notes.txt", "mine");
-  REQUIRE(here.run({"case.txt"}).status == 0);
+  REQUIRE(here.run({"case.txt", "overwrite=yes"}).status == 0);
   const std::vector<std::string> expected = {"notes.txt", "step_000000.vtk", "step_000005.vtk", "step_000010.vtk",
                                              "step_000012.vtk"};
   CHECK(files_in(here.path() / "out/vtk") == expected);
