@@ -42,7 +42,8 @@ void warn_of_values(const Case& c, const Suspension& bodies, Progress& progress)
   constexpr double large_step = 0.5;
   if (const double strain = largest_rate(c, bodies) * c.time_step; !c.adaptive && strain > large_step)
     progress.message(concat("warning: in a step of ", c.time_step, " the flow deforms by ", brief(strain),
-                            " (more than ", large_step, "), too much for forward Euler steps; try time_step = ", brief(0.1 * c.time_step / strain)));
+                            " (more than ", large_step, "), too much for forward Euler steps; try time_step = ",
+                            brief(0.1 * c.time_step / strain)));
   const auto turned = [](const Body& body) { return std::abs(body.pose.angle) > 2.0 * pi; };
   if (const auto first = std::find_if(bodies.begin(), bodies.end(), turned); first != bodies.end())
     progress.message(concat("warning: theta = ", first->pose.angle, " of body ", first - bodies.begin(),
@@ -138,6 +139,43 @@ class Checkpoints {
   std::string why_not_written_, interruption_;
 };
 
+// The checkpoint that a run goes on from, or none for one that begins anew, with warnings.
+struct Beginning {
+  std::optional<Checkpoint> checkpoint;
+  std::vector<std::string> warnings;
+};
+
+// Prepares the folder for either: results that are there stay or go, and the run is recorded.
+Beginning beginning(const Case& c, const Suspension& bodies, const CheckpointFile& file, StepsColumns columns) {
+  const RunRecord record(c, bodies);
+  Beginning result{file.read(), {}};
+  std::optional<Checkpoint>& start = result.checkpoint;
+  if (!std::filesystem::exists(file.path())) record.check_overwriting();  // what failed may be replaced, too
+  if (start && start->build != build_description())
+    result.warnings.push_back(concat("the checkpoint is of another build of the program (", start->build, "; this is ",
+                                     build_description(), "): from here on the last digits may be others"));
+  const std::string misfit = start ? Recorder::why_not_continued(c.output, columns, start->recorder) : std::string();
+  if (!misfit.empty()) {
+    start.reset();
+    result.warnings = {concat("the results do not fit their checkpoint (", misfit, "): starting from the beginning")};
+  }
+  if (!start) {
+    file.remove();  // before the results that it belongs to
+    record.remove_results();
+  }
+  record.write();
+  return result;
+}
+
+// Warns of densities that the nodes do not resolve.
+bool is_resolved(const StepRecord& record, Progress& progress) {
+  if (!record.outcome || record.outcome->density_tail <= resolved_tail) return true;
+  progress.message(concat("warning: at time ", record.time, " the top third of the Fourier modes holds ",
+                          brief(record.outcome->density_tail), " of a density's energy (more than ", resolved_tail,
+                          "); more points_per_body would resolve it"));
+  return false;
+}
+
 }  // namespace
 
 SimulationOptions options_of(const Case& c, const Suspension& bodies) {
@@ -169,39 +207,25 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   const SignalGuard signals;
 
   const FolderLock lock(c.output);
-  const RunRecord ran(c, bodies);
   const CheckpointFile file(c, bodies);
-  std::optional<Checkpoint> start = file.read();
-  if (!std::filesystem::exists(file.path())) ran.check_overwriting();  // what failed may be replaced, too
   const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
-  const std::string misfit = start ? Recorder::why_not_continued(c.output, columns, start->recorder) : std::string();
-  if (!misfit.empty()) start.reset();
+  const auto [start, warnings] = beginning(c, bodies, file, columns);
   Progress progress(c.end_time, start ? start->run.clock.time : 0.0, label);
-  if (!misfit.empty())
-    progress.message(concat("warning: the results do not fit their checkpoint (", misfit, "): starting from the beginning"));
-  if (!start) {
-    file.remove();  // before the results that it belongs to
-    ran.remove_results();
-  }
-  ran.write();
+  for (const std::string& warning : warnings) progress.message(concat("warning: ", warning));
   std::optional<VtkWriter> vtk;
   if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every);
   Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
                             : Recorder(c.output, c.output_every, columns);
-  if (start)
+  if (start) {
+    options.start = start->run;
     progress.message(concat("going on from step ", start->run.clock.step, ", time ", start->run.clock.time));
-  if (start && start->build != build_description())
-    progress.message(concat("warning: the checkpoint is of another build of the program (", start->build, "; this is ",
-                            build_description(), "): from here on the last digits may be others"));
-  if (!start) {
+  } else {
     warn_of_values(c, bodies, progress);
     warn_of_small_gaps(c, bodies, options.stepper.separation, progress);
   }
 
-  if (start) options.start = start->run;
   Checkpoints checkpoints(file, recorder, c.checkpoint_every, progress);
   options.observe_state = [&](const RunState& state, RunStage stage) { checkpoints.observe(state, stage); };
-  bool warned = false;
   FieldTimes fields(c, options.stepper);
   const auto write = [&](const StepRecord& record) {
     try {
@@ -213,17 +237,13 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
                                   checkpoints.save_after_write_error()));
     }
   };
+  bool resolved = true;
   RunSummary summary;
   try {
     summary = simulate(bodies, options, [&](const StepRecord& record) {
       write(record);
       progress.show(record);
-      if (!warned && record.outcome && record.outcome->density_tail > resolved_tail) {
-        warned = true;
-        progress.message(concat("warning: at time ", record.time, " the top third of the Fourier modes holds ",
-                                brief(record.outcome->density_tail), " of a density's energy (more than ", resolved_tail,
-                                "); more points_per_body would resolve it"));
-      }
+      if (resolved) resolved = is_resolved(record, progress);
     });
   } catch (const Interruption& end) {
     throw Interruption{end.signal, checkpoints.interruption()};

@@ -101,8 +101,8 @@ TEST_CASE("every key sets its member") {
   const Case c = read(
       "bodies=../b c.csv\nflow=extension\npoints_per_body=+64\ntime_step=1e-3\nend_time=.5\noutput=my "
       "results/x\n"
-      "rate=-2\nreverse_at=0\nmin_separation=2.5\ncontact=none\ncoupling=global\nnear_singular=cauchy\n"
-      "gmres_tolerance=1e-13\nadaptive=yes\noutput_every=10\nthreads=2\ntime_counting=accumulated\n");
+      "rate=-2\nreverse_at=0\nmin_separation=2.5\ncontact=stiv\ncoupling=global\nnear_singular=cauchy\n"
+      "gmres_tolerance=1e-13\noutput_every=10\nthreads=2\ntime_counting=accumulated\n");
   CHECK(c.bodies == "../b c.csv");
   CHECK(c.flow == FlowKind::extension);
   CHECK(c.points_per_body == 64);
@@ -112,15 +112,17 @@ TEST_CASE("every key sets its member") {
   CHECK(c.rate == -2.0);
   CHECK(c.reverse_at == 0.0);
   CHECK(c.min_separation == 2.5);
-  CHECK(c.contact == ContactModel::none);
+  CHECK(c.contact == ContactModel::stiv);
   CHECK(c.gmres_tolerance == 1e-13);
-  CHECK(c.adaptive);
   CHECK(c.output_every == 10);
   CHECK(c.threads == 2);
   CHECK(c.time_counting == TimeCounting::accumulated);
   CHECK(read(complete + "min_separation_length = .02\n").min_separation_length == 0.02);
   CHECK_FALSE(read(complete + "reverse_at = none\n").reverse_at.has_value());
   CHECK(read(complete, {"flow=none"}).flow == FlowKind::none);
+  CHECK(read(complete, {"adaptive=yes", "contact=none"}).adaptive);
+  CHECK(read(complete, {"contact=none"}).contact == ContactModel::none);
+  CHECK(read(complete, {"overwrite=yes"}).overwrite);
 }
 
 TEST_CASE("line ends, byte order mark, blanks and comments do not matter in a case") {
@@ -257,7 +259,7 @@ TEST_CASE("a word that is not a value is refused with the values and the nearest
 TEST_CASE("a case that is written as a file makes the same case again; its description lacks threads and output") {
   for (const Overrides& overrides :
        {Overrides{}, Overrides{"rate=0.1", "min_separation=3", "adaptive=yes", "reverse_at=.3"},
-        Overrides{"min_separation_length=0.01", "contact=none", "time_counting=accumulated"}}) {
+        Overrides{"min_separation_length=0.01", "contact=stiv", "time_counting=accumulated"}}) {
     const Case c = read(complete, overrides);
     const Case again = read(format_case(c));
     CHECK(describe(again) == describe(c));
