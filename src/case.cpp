@@ -82,8 +82,9 @@ void add_setting(std::string_view setting, const std::string& where, bool in_arg
   const std::string value = unquoted(trim(setting.substr(equals + 1)), where);
   const auto names = key_names();
   if (std::find(names.begin(), names.end(), key) == names.end()) {
-    fail(where, "unknown key ", quote(key), "; ", key.starts_with('-') ? "keys have no dashes; " : "", hint_for(key),
-         suggestion(without_dashes(key), names), "--help lists the keys.");
+    const std::string hint = hint_for(key);
+    fail(where, "unknown key ", quote(key), "; ", key.starts_with('-') ? "keys have no dashes; " : "",
+         hint.empty() ? suggestion(without_dashes(key), names) : hint, "--help lists the keys.");
   }
   if (value.empty()) fail(where, key, " has no value; write ", key, " = value.");
   const auto [entry, is_new] = given.try_emplace(key, GivenValue{value, where, in_argument});

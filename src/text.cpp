@@ -144,7 +144,8 @@ std::string nearest_name(std::string_view word, const std::vector<std::string>& 
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(word, names);
-  if (nearest.empty() || distance_score(word, nearest) > 2000) return {};
+  const long near = std::min(2000L, 500L * static_cast<long>(word.size()));  // at most half of the letters
+  if (nearest.empty() || (distance_score(word, nearest) > near && !nearest.starts_with(word))) return {};
   return concat("did you mean ", quote(nearest), "? ");
 }
 

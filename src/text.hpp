@@ -47,8 +47,8 @@ int edit_distance(std::string_view from, std::string_view to);
 // The name that `word` was most likely meant to be: smallest edit distance without regard to case, a
 // name that contains the word (or the reverse) counting as near; the first of equals.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
-// "did you mean 'name'? " with the nearest name, if it is at most two letters away or one contains the other; if not,
-// nothing.
+// "did you mean 'name'? " with the nearest name, if it is at most two letters away and shares half of them, or if one
+// contains the other; if not, nothing.
 std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
 // The content of a file without its UTF-8 byte order mark, line ends of '\r' alone as '\n'. Throws InputError for a file

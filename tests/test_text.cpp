@@ -150,6 +150,8 @@ TEST_CASE("a suggestion is at most two letters away, or a part") {
   CHECK(suggestion("rtae", names) == "did you mean 'rate'? ");
   CHECK(suggestion("timestp", names) == "did you mean 'time_step'? ");
   CHECK(suggestion("tolerance", names) == "did you mean 'gmres_tolerance'? ");
+  CHECK(suggestion("r", names) == "did you mean 'rate'? ");
+  CHECK(suggestion("dt", names) == "");
   CHECK(suggestion("viscosity", names) == "");
   CHECK(suggestion("anything", {}) == "");
 }
