@@ -138,6 +138,8 @@ void check_effects(Case& c, const GivenKeys& given) {
 
 void check_geometry(const Case& c, const Limit& limit) {
   if (c.geometry == Geometry::unbounded) return;
+  limit(c.flow == FlowKind::none, "flow",
+        "is a flow of unbounded fluid, but in an annulus the walls drive the fluid; leave it out.");
   limit(c.inner_radius > 0.0, "inner_radius", "must be greater than 0.");
   limit(c.outer_radius <= 1e100, "outer_radius", "is above 1e100; choose a larger unit of length.");
   limit(c.outer_radius > c.inner_radius, "outer_radius",
@@ -179,7 +181,6 @@ void check_separation(const Case& c, const Limit& limit) {
 // Limits of the values and of their combinations.
 void check_case(Case& c, const GivenKeys& given) {
   const Limit limit{given};
-  check_effects(c, given);
   check_geometry(c, limit);
   limit(c.points_per_body >= 8, "points_per_body", "is below 8; try 32.");
   limit(c.points_per_body % 2 == 0, "points_per_body", "is odd; it must be even, try one more.");
@@ -205,6 +206,7 @@ void check_case(Case& c, const GivenKeys& given) {
     limit(*c.threads >= 1, "threads", "must be at least 1; leave it out for all cores.");
     limit(*c.threads <= most_threads, "threads", concat("is above ", most_threads, "; leave it out for all cores."));
   }
+  check_effects(c, given);
 }
 
 }  // namespace

@@ -204,10 +204,10 @@ std::string hint_for(std::string_view word) {
 const std::vector<CaseKey>& case_keys() {
   static const std::vector<CaseKey> table = {
       required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file"),
-      in_unbounded(required("flow", &Case::flow,
+      required("flow", &Case::flow,
                "background: shear (rate y, 0), extension rate (x, -y), taylor_green rate (cos x sin y, -sin x cos y); "
                "none in an annulus",
-               Needed::unbounded)),
+               Needed::unbounded),
       required("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8"),
       required("time_step", &Case::time_step, "length of a step, time"),
       required("end_time", &Case::end_time, "when to stop, time"),
