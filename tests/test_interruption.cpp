@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "interruption.hpp"
-#include "program.hpp"
 #include "run.hpp"
+#include "running_program.hpp"
 
 using namespace stokes;
 
@@ -27,10 +27,10 @@ double seconds_of(const std::function<void()>& action) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// Rows of discs pressed together so closely that the contact problem of one step takes minutes with lcp_matrix = self.
+// Rows of discs pressed together so closely that the contact problem of one step takes a minute with lcp_matrix = self.
 Workspace long_step() {
   std::string bodies = "a,b,x,y,theta,force_x\n";
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const int force = i % 12 == 0 ? 50 : i % 12 == 11 ? -50 : 0;
     bodies += concat(".5,.5,", 1.02 * (i % 12), ",", 1.02 * (i / 12), ",0,", force, "\n");
   }
@@ -40,14 +40,12 @@ Workspace long_step() {
 }  // namespace
 
 TEST_CASE("each signal leaves a checkpoint, from which the run goes on to the same bytes") {
-  const Workspace here(case_text("shear", 64, 0.02, 8), discs);
+  const Workspace here(case_text("shear", 64, 0.01, 10), discs);
   REQUIRE(here.run({"case.txt", "output=whole"}).status == 0);
-  for (const auto& [signal, status] : {std::pair("HUP", 129), {"INT", 130}, {"PIPE", 141}, {"TERM", 143}}) {
-    CAPTURE(std::string(signal));
+  for (const auto& [signal, status] : {std::pair(SIGHUP, 129), {SIGINT, 130}, {SIGPIPE, 141}, {SIGTERM, 143}}) {
+    CAPTURE(signal);
     fs::remove_all(here.path() / "out");
-    ProgramRun run{};
-    for (double seconds = 0.1; seconds < 20.0 && !fs::exists(here.path() / "out/checkpoint"); seconds *= 1.5)
-      run = here.run_until(seconds, signal, {"case.txt", "checkpoint_every=0"});
+    const ProgramRun run = stopped(here, signal, {"case.txt", "checkpoint_every=0"});
     CAPTURE(run.errors);
     CHECK(run.status == status);
     CHECK(contains(run.errors, "; the same command goes on from out/checkpoint\n"));
@@ -60,24 +58,28 @@ TEST_CASE("each signal leaves a checkpoint, from which the run goes on to the sa
 }
 
 TEST_CASE("a closed pipe leaves a checkpoint") {
-  const Workspace here(case_text("shear", 16, 0.01, 1e3), discs);
+  const Workspace here(case_text("shear", 16, 0.01, 100), discs);
   const std::string command = concat("cd ", shell_word(here.path().string()), " && ",
-                                     shell_word(simulate_program().string()), " case.txt checkpoint_every=0 2>&1 | head -n 1 > first_line");
+                                     shell_word(simulate_program().string()),
+                                     " case.txt checkpoint_every=0 2>&1 | head -n 1 > first_line");
   REQUIRE(std::system(command.c_str()) == 0);
   CHECK(fs::exists(here.path() / "out/checkpoint"));
 }
 
 TEST_CASE("a signal ends a long step within seconds") {
   const Workspace here = long_step();
-  ProgramRun run{};
-  const double seconds = seconds_of([&] { run = here.run_until(2.0, "TERM", {"case.txt"}); });
-  CAPTURE(run.errors);
-  CHECK(run.status == 143);
-  CHECK(contains(run.errors, "interrupted at step 0, time 0; the same command goes on from out/checkpoint\n"));
-  CHECK(seconds < 6.0);
-  const ProgramRun again = here.run_until(2.0, "TERM", {"case.txt"});
-  CHECK(again.status == 143);
-  CHECK(contains(again.errors, "going on from step 0"));
+  for (const char* beginning : {"interrupted at step 0, time 0", "going on from step 0, time 0"}) {
+    RunningProgram running(here, {"case.txt"});
+    REQUIRE(running.wait() != 0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    ProgramRun run{};
+    const double seconds = seconds_of([&] { run = running.end_by(SIGTERM, [] { return true; }); });
+    CAPTURE(run.errors);
+    CHECK(run.status == 143);
+    CHECK(contains(run.errors, beginning));
+    CHECK(contains(run.errors, "interrupted at step 0, time 0; the same command goes on from out/checkpoint\n"));
+    CHECK(seconds < 6.0);
+  }
 }
 
 TEST_CASE("an interruption while a state is recorded is told with that state") {
@@ -115,10 +117,10 @@ TEST_CASE("a checkpoint that cannot be written hides neither a failure nor a sig
   CHECK(contains(failed.errors, "simulate: step 0, time 0: GMRES"));
   const Workspace endless(case_text("shear", 16, 0.1, 1e6), discs);
   fs::create_directories(endless.path() / "out/checkpoint.tmp/in_the_way");
-  const ProgramRun stopped = endless.run_until(1.0, "TERM", {"case.txt"});
-  CAPTURE(stopped.errors);
-  CHECK(stopped.status == 143);
-  CHECK(contains(stopped.errors, "there is no checkpoint, so that the same command starts again"));
+  const ProgramRun ended = stopped(endless, SIGTERM, {"case.txt"});
+  CAPTURE(ended.errors);
+  CHECK(ended.status == 143);
+  CHECK(contains(ended.errors, "there is no checkpoint, so that the same command starts again"));
 }
 
 TEST_CASE("a second run in one process does not end by the signal of the first") {

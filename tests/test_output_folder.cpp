@@ -4,12 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
+#include <csignal>
 
 #include "output_folder.hpp"
-#include "program.hpp"
 #include "refusal.hpp"
+#include "running_program.hpp"
 
 using namespace stokes;
 
@@ -37,13 +36,11 @@ void check_refused(const Workspace& here, const std::vector<std::string>& argume
 }  // namespace
 
 TEST_CASE("a second run into a folder is refused while the first is there, which ends undisturbed") {
-  const Workspace here(case_text("shear", 16, 0.01, 1e5), discs);
-  ProgramRun first{};
-  std::thread running([&] { first = here.run_until(4.0, "TERM", {"case.txt", "checkpoint_every=0"}); });
-  for (int k = 0; k < 300 && !fs::exists(here.path() / "out/steps.csv"); ++k)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const Workspace here(case_text("shear", 16, 0.01, 1e6), discs);
+  RunningProgram running(here, {"case.txt", "checkpoint_every=0"});
+  REQUIRE(running.wait() != 0);
   const ProgramRun second = here.run({"case.txt", "end_time=0.1"});
-  running.join();
+  const ProgramRun first = running.end_by(SIGTERM, [] { return true; });
   CAPTURE(second.errors);
   CHECK(second.status == 2);
   CHECK(contains(second.errors, "'out' is in use: process "));
@@ -68,10 +65,10 @@ TEST_CASE("a folder lock names its process, keeps a second one out and goes with
 }
 
 TEST_CASE("the lock of a killed run keeps nobody out") {
-  const Workspace here(case_text("shear", 16, 0.01, 1e5, "checkpoint_every = 1e-9\n"), discs);
-  here.run_until(0.5, "KILL", {"case.txt"});
+  const Workspace here(case_text("shear", 16, 0.01, 1e6), discs);
+  CHECK(stopped(here, SIGKILL, {"case.txt", "checkpoint_every=1e-9"}).status == 137);
   CHECK(fs::exists(here.path() / "out/lock"));
-  const ProgramRun next = here.run_until(0.5, "TERM", {"case.txt"});
+  const ProgramRun next = stopped(here, SIGTERM, {"case.txt"});
   CHECK(next.status == 143);
   CHECK(contains(next.errors, "going on from step "));
 }
@@ -92,10 +89,10 @@ TEST_CASE("results of another case are kept unless overwrite = yes, and the diff
 }
 
 TEST_CASE("an unfinished run of another case is replaced where it may be overwritten") {
-  const Workspace here(case_text("shear", 16, 0.01, 1e5), discs);
-  REQUIRE(here.run_until(0.5, "TERM", {"case.txt"}).status == 143);
+  const Workspace here(case_text("shear", 16, 0.01, 1e6), discs);
+  REQUIRE(stopped(here, SIGTERM, {"case.txt"}).status == 143);
   check_refused(here, {"case.txt", "time_step=.2"}, {"out/checkpoint", "overwrite = yes"});
-  const ProgramRun same = here.run_until(0.5, "TERM", {"case.txt", "overwrite=yes"});
+  const ProgramRun same = stopped(here, SIGTERM, {"case.txt", "overwrite=yes"});
   CHECK(contains(same.errors, "going on from step "));
   const ProgramRun other = here.run({"case.txt", "overwrite=yes", "end_time=0.1"});
   CHECK(other.status == 0);
