@@ -49,18 +49,11 @@ void write_snapshots(const std::string& name, const Suspension& start, const Rec
   std::vector<std::vector<double>> rows;
   for (const std::size_t k : run.states_at(times))
     for (std::size_t i = 0; i < start.size(); ++i) {
-<<<<<<< HEAD
-      const Pose& pose = run.bodies()[k][i].pose;
-      rows.push_back({time[k], static_cast<double>(i), pose.centre.real(), pose.centre.imag(), start[i].shape.a,
-                      start[i].fixed ? 1.0 : 0.0, run.in_contact(k, i) ? 1.0 : 0.0});
-=======
       const bool is_wall = start[i].points > 0;  // which the run does not record: it stays
-      const auto& [pose, contact] = is_wall ? RecordedBody{start[i].pose, {}} : run.bodies()[k][i];
-      const bool in_contact = !is_wall && run.was_in_contact(k, i);
-      rows.push_back({time[k], static_cast<double>(i), pose.centre.real(), pose.centre.imag(), pose.angle, start[i].shape.a,
-                      start[i].fixed ? 1.0 : 0.0, in_contact ? 1.0 : 0.0, contact.force.real(),
-                      contact.force.imag(), contact.torque});
->>>>>>> 15a1a0e (Columns are explained by --help columns and a page; unknown fields are empty, whole numbers have all digits, walls are no bodies of the trajectory)
+      const Pose& pose = is_wall ? start[i].pose : run.bodies()[k][i].pose;
+      const bool in_contact = !is_wall && run.in_contact(k, i);
+      rows.push_back({time[k], static_cast<double>(i), pose.centre.real(), pose.centre.imag(), start[i].shape.a,
+                      start[i].fixed ? 1.0 : 0.0, in_contact ? 1.0 : 0.0});
     }
   results.write(name + "_snapshots", {"time", "body", "x", "y", "radius", "fixed", "in_contact"}, rows);
 }

@@ -60,11 +60,9 @@ void run_case(const std::string& name, const Results& results) {
   Quantities row;
   for (std::size_t f = 0; f < states.size(); ++f) {
     const double time = stress_times[f];
-    std::vector<Wrench> contact;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      bodies[i].pose = run.bodies()[states[f]][i].pose;
-      contact.push_back(run.bodies()[states[f]][i].contact);
-    }
+    std::vector<Wrench> contact(bodies.size());  // none on the inner wall, which the run does not record
+    const std::vector<RecordedBody>& recorded = run.bodies()[states[f]];
+    for (std::size_t i = 0; i < recorded.size(); ++i) bodies[i].pose = recorded[i].pose, contact[i] = recorded[i].contact;
     const double driving = time < parameters.reverse_at ? 1.0 : -1.0;
     const GridFlow flow = flow_on_grid(bodies, options, driving, contact, view, grid_points);
     const std::vector<double> shift = shear_stress_of_shift(flow, bodies, contact);
