@@ -232,7 +232,7 @@ TEST_CASE("a case of an experiment that is killed again and again ends with the 
   CHECK(continued == 2);
   CHECK(run_program(program, {"case=quick"}, parts.path()).status == 0);
   CHECK(everything_in(parts.path()) == everything_in(whole.path()));
-  CHECK(everything_in(whole.path()).size() == 11);  // eight files in three folders
+  CHECK(everything_in(whole.path()).size() == 10);  // seven files in three folders
 }
 
 TEST_CASE("a run that is killed before its first checkpoint starts again") {
