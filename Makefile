@@ -24,16 +24,18 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps deps-figures all test reproduce reproduce-quick verify figures movies paper bench sanitize sanitize-threads fuzz coverage \
+.PHONY: help deps deps-figures all test reproduce reproduce-all reproduce-quick verify figures movies paper bench \
+        sanitize sanitize-threads fuzz coverage \
         clean FORCE
 .SECONDARY:
 
 help:
 	@echo 'make deps             install Eigen, FFTW and doctest where they are missing'
 	@echo 'make test             build and run the tests'
-	@echo 'make reproduce        run every experiment and compare with the published values'
-	@echo 'make reproduce-quick  the coarse cases of every experiment only'
-	@echo '  SEEDS=n             n other random starts of each suspension between cylinders, 3 if not given'
+	@echo 'make reproduce        run what decides each published number, and compare'
+	@echo 'make reproduce-all    the same with all variants: other contact models, steps, nodes and starts; hours'
+	@echo '  SEEDS=n             reproduce-all with n other random starts of each suspension between cylinders, 3 if not given'
+	@echo 'make reproduce-quick  the coarse cases only'
 	@echo 'make verify           compare the results that are there, without running anything'
 	@echo 'make figures          draw the figures of the paper from the results (gnuplot)'
 	@echo 'make paper            the report, with its figures, tables and numbers, from the results (gnuplot, LaTeX)'
@@ -102,7 +104,7 @@ $(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
 -include $(wildcard $(BUILD)/*.d)
 
 # --- tests ----------------------------------------------------------------------------------------------
-test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/local_coupling $(BUILD)/fig6_injection
+test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/verify $(BUILD)/local_coupling $(BUILD)/fig6_injection
 	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests $(TESTS_RUN)
 
 FUZZ = count=100000 seed=1
@@ -128,13 +130,14 @@ coverage:
 # --- experiments: one process and one file a case -------------------------------------------------------
 TABLE1_SEPARATIONS = 0 1 2 2.25 2.5 2.75 3
 TABLE1_STEPS       = 0.04 0.02 0.01 0.005 0.0025
-TABLE1_CASES       = $(foreach t,$(TABLE1_STEPS),$(foreach d,$(TABLE1_SEPARATIONS),delta$(d)h_dt$(t)) \
-                       $(foreach d,$(filter-out 0 1,$(TABLE1_SEPARATIONS)),delta$(d)h_dt$(t)_stiv delta$(d)h_dt$(t)_stiv32))
+TABLE1_CASES       = $(foreach t,$(TABLE1_STEPS),$(foreach d,$(TABLE1_SEPARATIONS),delta$(d)h_dt$(t)))
+TABLE1_VARIANTS    = $(foreach c,$(filter-out delta0h% delta1h%,$(TABLE1_CASES)),$(c)_stiv $(c)_stiv32)
 FIG2_CASES         = $(foreach d,0 1 2 2.1 2.5 2.75 3,delta$(d)h)
 FIG3_CASES         = y0.75 y0.755 y0.76
 LOCAL_CASES        = rate2_global rate2_local rate1_global rate1_local
 CLOSE_CASES        = circle
-NCP_CASES          = head_on_full head_on_self shear_2h_full shear_2h_self shear_3h_full shear_3h_self
+NCP_CASES          = head_on_full shear_2h_full shear_3h_full
+NCP_VARIANTS       = head_on_self shear_2h_self shear_3h_self
 ADAPTIVE_RUNS      = fixed_dt0.04 adaptive_dt0.16 fixed_dt0.02 adaptive_dt0.08 fixed_dt0.01 adaptive_dt0.04
 ADAPTIVE_CASES     = $(foreach r,$(ADAPTIVE_RUNS),$(r) $(r)_stiv $(r)_self)
 VARIANT_CASES      = $(foreach c,global local,$(foreach m,full self,gap_$(c)_$(m) \
@@ -142,15 +145,17 @@ VARIANT_CASES      = $(foreach c,global local,$(foreach m,full self,gap_$(c)_$(m
 
 # Longest first, so that two processes end together.
 FIG4_STEPS         = 0.00625 0.0125 0.025
-FIG4_CASES         = $(foreach t,$(FIG4_STEPS),dt$(t) dt$(t)_stiv dt$(t)_plain) points64 tolerance1e-8 adaptive_dt0.1 quick
+FIG4_CASES         = $(FIG4_STEPS:%=dt%)
+FIG4_VARIANTS      = $(foreach t,$(FIG4_STEPS),dt$(t)_stiv dt$(t)_plain) points64 tolerance1e-8 adaptive_dt0.1
+TG_CASES           = cold free_points32_dt0.0025 local_contact_dt1e-8 points
 TG_CONTINUED       = global_full_dt0.01 global_self_dt0.01 local_start_dt0.025 local_start_dt0.0025 \
                        $(foreach t,1e-2 1e-4 1e-6 1e-8,local_contact_dt$(t))
 TG_FREE            = $(foreach p,32 64,$(foreach t,0.0025 0.01 0.025,free_points$(p)_dt$(t))) \
                        $(foreach t,0.0025 0.01 0.025,free_points32_dt$(t)_near)
-TG_ITERATIONS      = $(foreach k,none block pair,cold_$(k) $(foreach t,1e-6 1e-8,extrapolated_$(k)_$(t))) points
+TG_ITERATIONS      = $(foreach k,none block pair,$(foreach t,1e-6 1e-8,extrapolated_$(k)_$(t)))
+TG_VARIANTS        = $(filter-out $(TG_CASES),$(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED))
 INJECTION_CASES    = paper undisturbed
 INJECTION_ALL_CASES = paper_stiv paper_delta0.2h paper_delta0.3h paper_dt0.04 paper_dt0.02 paper_wall256 quick
-TG_CASES           = $(TG_FREE) $(TG_ITERATIONS) $(TG_CONTINUED)
 
 # Section 4.4: the paper's start of each suspension, longest first, and SEEDS other ones.
 SEEDS              ?= 3
@@ -160,47 +165,50 @@ COUETTE_ALL_CASES  = $(foreach k,$(shell seq $(SEEDS)),$(COUETTE:%=%_seed$(k))) 
                      $(foreach v,points64 halfstep stiv,phi5_lambda3_paper_$(v))
 COUETTE_TABLES     = table2_order_parameter table3_effective_viscosity fig9_order_parameter fig10_effective_viscosity
 
-# $(call experiment,name,cases,quick cases): `name` makes all its cases and then its tables.
+# $(call experiment,name,cases,quick cases,variants): `name` makes its cases, which decide the published numbers, and then
+# its tables; `name-all` makes the variants, too. An experiment of variants alone is no part of `reproduce`.
 define experiment
-.PHONY: $(1) $(1)-quick
+.PHONY: $(1) $(1)-quick $(1)-all
 $(RESULTS)/$(1)/%.csv: $(BUILD)/$(1)
 	@echo $(1) $$*
 	@$(BUILD)/$(1) case=$$* results=$(RESULTS)
-$(1): $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(2))
+$(1): $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(or $(2),$(4)))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
 $(1)-quick: $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(3))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
-reproduce: $(1)
-reproduce-quick: $(1)-quick
+$(1)-all: $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(2) $(4))
+	@$(BUILD)/$(1) collect results=$(RESULTS)
+$(if $(2)$(3)$(if $(4),,tables),reproduce: $(1)
+reproduce-quick: $(1)-quick)
+reproduce-all: $(1)-all
 endef
-$(eval $(call experiment,table1_reversibility,$(TABLE1_CASES),$(foreach t,0.04 0.02 0.01,$(filter %_dt$(t) %_dt$(t)_stiv %_dt$(t)_stiv32,$(TABLE1_CASES)))))
+$(eval $(call experiment,table1_reversibility,$(TABLE1_CASES),$(foreach t,0.04 0.02 0.01,$(filter %_dt$(t),$(TABLE1_CASES))),$(TABLE1_VARIANTS)))
 $(eval $(call experiment,fig2_shear_separation,$(FIG2_CASES),$(FIG2_CASES)))
 $(eval $(call experiment,fig3_pathlines,$(FIG3_CASES),$(FIG3_CASES)))
 $(eval $(call experiment,local_coupling,$(LOCAL_CASES),$(LOCAL_CASES)))
-$(eval $(call experiment,contact_variants,$(VARIANT_CASES),$(VARIANT_CASES)))
-$(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES)))
+$(eval $(call experiment,contact_variants,,,$(VARIANT_CASES)))
+$(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES),$(NCP_VARIANTS)))
 $(eval $(call experiment,close_evaluation,$(CLOSE_CASES),$(CLOSE_CASES)))
-$(eval $(call experiment,fig4_taylor_green,$(FIG4_CASES),quick))
-$(eval $(call experiment,taylor_green_claims,$(TG_CASES),points))
-$(eval $(call experiment,couette_run,$(COUETTE_CASES),phi5_lambda3_paper_quick))
+$(eval $(call experiment,fig4_taylor_green,$(FIG4_CASES),quick,$(FIG4_VARIANTS)))
+$(eval $(call experiment,taylor_green_claims,$(TG_CASES),points,$(TG_VARIANTS)))
+$(eval $(call experiment,couette_run,$(COUETTE_CASES),phi5_lambda3_paper_quick,$(COUETTE_ALL_CASES)))
 $(eval $(call experiment,fig8_initial_configurations,$(COUETTE),$(COUETTE)))
 $(foreach t,$(COUETTE_TABLES),$(eval $(call experiment,$(t),$(if $(filter fig9%,$(t)),orbit),$(if $(filter fig9%,$(t)),orbit))))
 $(COUETTE_TABLES): couette_run
+$(COUETTE_TABLES:%=%-all): couette_run-all
 $(eval $(call experiment,fig6_injection,$(INJECTION_CASES),quick undisturbed,$(INJECTION_ALL_CASES)))
 $(eval $(call experiment,fig7_shear_stress,paper,))
 # Figure 7 is computed from the positions of Figure 6.
 $(RESULTS)/fig7_shear_stress/paper.csv: $(RESULTS)/fig6_injection/paper.csv
-$(eval $(call experiment,adaptive_steps,$(ADAPTIVE_CASES),$(ADAPTIVE_CASES)))
+$(eval $(call experiment,adaptive_steps,,,$(ADAPTIVE_CASES)))
 
 couette_cases:  # their names, for experiments/submit_couette.sh
 	@printf '%s\n' $(COUETTE_CASES) $(COUETTE_ALL_CASES)
 
-reproduce: $(BUILD)/verify
-	@$(BUILD)/verify results=$(RESULTS)
+reproduce reproduce-all verify: $(BUILD)/verify
+	@$(BUILD)/verify results=$(RESULTS) readme=README.md
 reproduce-quick: $(BUILD)/verify
-	@$(BUILD)/verify results=$(RESULTS) missing=allow
-verify: $(BUILD)/verify
-	@$(BUILD)/verify results=$(RESULTS)
+	@$(BUILD)/verify results=$(RESULTS) missing=allow rows=differing
 
 # --- figures and report, from the results that are there --------------------------------------------------
 figures:

@@ -11,14 +11,6 @@
 
 namespace stokes {
 
-// Of the verdict, in the order in which they are counted.
-inline const std::vector<std::string> verdict_statuses = {"PASS", "KNOWN", "FAIL", "MISSING", "NOT RUN"};
-
-// What the note of a KNOWN row says after that word.
-inline std::string known_reason(const std::string& note) {
-  return std::string(trim(note.substr(note.find("KNOWN:") + 6)));
-}
-
 using Arguments = std::map<std::string, std::string>;
 
 // `arguments`: the names there are, with their defaults; missing=fail|allow is one of all programs. `run` gets their

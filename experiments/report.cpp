@@ -13,6 +13,7 @@
 
 #include "on_results.hpp"
 #include "report_inputs.hpp"
+#include "verdict.hpp"
 
 namespace {
 
@@ -36,50 +37,56 @@ std::string values(Inputs& inputs, const std::string& document) {
   return text;
 }
 
-// For each experiment: rows of the verdict by status, published values apart from exact ones and earlier results.
-std::string verdict_table(Inputs& inputs) {
-  const auto& statuses = verdict_statuses;
-  const auto columns = statuses.size();
-  std::map<std::string, std::vector<int>> counts;
-  std::vector<int> total(2 * columns);
+// Calls visit(row) for each row of the verdict, with its columns by name; false if there is no verdict.
+template <class Visit>
+bool for_each_verdict(Inputs& inputs, const Visit& visit) {
   const Table* verdict = inputs.table("verdict");
-  if (!verdict) return row_of({missing_mark});
-  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
-    const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
-    const auto status = static_cast<std::size_t>(std::find(statuses.begin(), statuses.end(), text("verdict")) - statuses.begin());
-    if (status == columns) throw InputError(concat(verdict->where(row), ": unknown verdict"));
-    if (text("verdict") == "MISSING")
+  if (!verdict) return false;
+  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row)
+    visit([&](const char* column) { return verdict->text(row, verdict->column(column)); });
+  return true;
+}
+
+// Published numbers by table and figure of the paper, then exact ones and own baselines.
+std::string verdict_table(Inputs& inputs) {
+  Summary summary;
+  const bool is_there = for_each_verdict(inputs, [&](const auto& text) {
+    ReferenceRow row{};
+    row.origin = origin_of(text("source"));
+    if (row.origin == Origin::published) row.object = object_of(text("locator"));
+    const Status status = status_of(text("verdict"));
+    if (status == Status::missing)
       inputs.problem(concat("no result ", text("experiment"), "/", text("case"), " ", text("quantity")));
-    std::vector<int>& count = counts[text("experiment")];
-    count.resize(2 * columns);
-    const auto column = status + (text("source").starts_with("paper_") ? 0 : columns);
-    ++count[column], ++total[column];
-  }
+    summary.add(row, status);
+  });
+  if (!is_there) return row_of({missing_mark});
   std::string table;
-  const auto add = [&](const std::string& name, const std::vector<int>& numbers) {
-    std::vector<std::string> cells = {name};
-    for (const int n : numbers) cells.push_back(n ? format_number(n) : "");
+  const auto add = [&](const std::string& name, const Count& count) {
+    std::vector<std::string> cells = {tex_text(name)};
+    for (const int n : count.cells()) cells.push_back(n ? format_number(n) : "");
     table += row_of(cells);
   };
-  for (const auto& [experiment, count] : counts) add(concat("\\texttt{", tex_text(experiment), "}"), count);
+  for (const std::string& object : published_objects) add(object, summary.of_object[object]);
   table += "\\midrule\n";
-  add("all", total);
+  for (const Origin origin : {Origin::published, Origin::exact, Origin::baseline}) add(name_of(origin), summary[origin]);
   return table;
 }
 
-// Rows of the verdict with this status: KNOWN ones once for each note, the others one by one.
-std::string verdict_rows(Inputs& inputs, const std::string& status) {
-  const Table* verdict = inputs.table("verdict");
-  if (!verdict) return row_of({missing_mark});
+// Rows of the verdict with one of these statuses: KNOWN ones once for each note, the others one by one.
+std::string verdict_rows(Inputs& inputs, const std::vector<Status>& statuses) {
   std::map<std::pair<std::string, std::string>, int> groups;
-  for (int row = 0; row < static_cast<int>(verdict->rows.size()); ++row) {
-    const auto text = [&](const char* column) { return verdict->text(row, verdict->column(column)); };
-    if (text("verdict") != status) continue;
-    const std::string got = tex_number(verdict->number(row, verdict->column("got")), "5g");
+  const bool is_there = for_each_verdict(inputs, [&](const auto& text) {
+    const Status status = status_of(text("verdict"));
+    if (std::find(statuses.begin(), statuses.end(), status) == statuses.end()) return;
     const std::string what = concat("\\texttt{", tex_text(concat(text("case"), " ", text("quantity"))), "}: ");
-    ++groups[{text("experiment"), status == "KNOWN" ? tex_prose(known_reason(text("note")))
-                                                    : concat(what, got, ", expected ", tex_text(text("expected")))}];
-  }
+    const std::string reason = known_note(text("note")).reason;
+    const std::optional<double> number = parse_number(text("got"));
+    const std::string got = number ? tex_number(*number, "5g") : "--";
+    const bool is_known = status == Status::measured || status == Status::unexplained;
+    ++groups[{text("experiment"), is_known ? tex_prose(reason)
+                                           : concat(what, got, ", expected ", tex_text(text("expected")))}];
+  });
+  if (!is_there) return row_of({missing_mark});
   std::string table;
   for (const auto& [group, count] : groups)
     table += row_of({concat("\\texttt{", tex_text(group.first), "}"), format_number(count), group.second});
@@ -152,7 +159,8 @@ std::string bench_table(Inputs& inputs) {
   std::string table;
   for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
     const auto text = [&](const char* column) { return tex_text(t->text(row, t->column(column))); };
-    table += row_of({text("quantity"), text("size"), text("threads"), tex_number(t->number(row, t->column("value")), "3g"), text("unit")});
+    const std::string value = tex_number(t->number(row, t->column("value")), "3g");
+    table += row_of({text("quantity"), text("size"), text("threads"), value, text("unit")});
   }
   return table;
 }
@@ -201,8 +209,9 @@ int run(Arguments& options) {
   const std::map<std::string, std::string> parts = {
       {"values", provenance(inputs) + values(inputs, document)},
       {"verdict", verdict_table(inputs)},
-      {"known", verdict_rows(inputs, "KNOWN")},
-      {"failed", verdict_rows(inputs, "FAIL")},
+      {"measured", verdict_rows(inputs, {Status::measured})},
+      {"unexplained", verdict_rows(inputs, {Status::unexplained})},
+      {"failed", verdict_rows(inputs, {Status::fail, Status::stale})},
       {"table1", table1(inputs)},
       {"table2", couette_table(inputs, "table2_order_parameter", true)},
       {"table3", couette_table(inputs, "table3_effective_viscosity", false)},
@@ -226,6 +235,9 @@ int main(int argc, char** argv) {
       "Writes the numbers, tables and lists that the report asks for to DIR/report/*.tex. Exit status 1,\n"
       "and nothing is written, if one of them is missing, unless missing=allow.\n";
   return run_on_results("report", usage, help,
-                        {{"results", "results"}, {"reference", "reference_data"}, {"document", "paper"}, {"errata", "paper/ERRATA.md"}},
+                        {{"results", "results"},
+                         {"reference", "reference_data"},
+                         {"document", "paper"},
+                         {"errata", "paper/ERRATA.md"}},
                         argc, argv, run);
 }

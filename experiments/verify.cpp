@@ -1,152 +1,124 @@
-// Compares results with the reference values, number by number, and prints the verdict.
+// Compares results with the reference values (reference.hpp), number by number, and prints the verdict.
 //
-//   verify [results=DIR] [reference=DIR] [missing=fail|allow]
+//   verify [results=DIR] [reference=DIR] [missing=fail|allow] [rows=all|differing] [readme=FILE]
 //
-// Every reference_data/*.csv has the columns id, experiment, case, quantity, unit, value, check, abs_tol,
-// rel_tol, source, locator, note; the number it speaks of stands in results/<experiment>/<case>.csv, first
-// row, column <quantity>. With d = abs_tol + rel_tol |value|, the checks are
-//   close           |got - value| <= d             at_most    got <= value + d
-//   at_least, order_at_least   got >= value - d    interval   value is `low..high`, low - d <= got <= high + d
-//   true            got = 1
-// A row whose note starts with `KNOWN:` is a documented deviation: out of tolerance it counts apart, as
-// KNOWN, not as a failure. One whose note starts with `OPTIONAL:` needs runs that are not made unless asked for;
-// without them it is NOT RUN, which is no failure either; `KNOWN:` may follow later in such a note. The verdict also goes to results/verdict.csv.
-// Exit status: 0 all pass or are known; 1 a FAIL, or a MISSING unless missing=allow; 2 wrong input.
+// PASS: within the tolerance. KNOWN: out of it, within the interval of a documented deviation. STALE: a KNOWN row that is
+// within the tolerance. FAIL: all others, also a result that is not a number, cannot be read or lacks the column.
+// MISSING: the case has not been run; NOT RUN with missing=allow, and for OPTIONAL rows.
+// The verdict also goes to results/verdict.csv, its table by object to results/verdict_summary.csv.
+// Exit status: 0 all pass or are known; 1 a FAIL, STALE or MISSING, or a FILE whose table by object is not that of this
+// run, which is looked at when nothing is missing; 2 wrong input.
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 
-#include "base.hpp"
-#include "csv.hpp"
 #include "on_results.hpp"
+#include "verdict.hpp"
 
 namespace {
 
 using namespace stokes;
 namespace fs = std::filesystem;
 
-struct Verdict {
-  std::string id, experiment, case_name, quantity, expected, source, locator, status, note;
-  double got = std::nan("");
-  double error = std::nan("");  // in units of the tolerance; at most 1 passes
-
-  bool judged() const { return status != "MISSING" && status != "NOT RUN"; }
-};
-
-double required(const Table& table, int row, const std::string& column) {
-  return table.finite_number(row, table.column(column));
-}
-
-// Distance from the allowed set over the tolerance; 0 inside an exact bound.
-double error_in_tolerances(const Table& table, int row, double got) {
-  const std::string check = table.text(row, table.column("check"));
-  const std::string value = table.text(row, table.column("value"));
-  double low, high;
-  if (check == "interval") {
-    const std::size_t dots = value.find("..");
-    const auto first = parse_number(value.substr(0, dots));
-    const auto second = dots == std::string::npos ? std::nullopt : parse_number(value.substr(dots + 2));
-    if (!first || !second) throw InputError(concat(table.where(row), ": an interval is written low..high, not ", quote(value)));
-    low = *first, high = *second;
-  } else {
-    low = high = required(table, row, "value");
-    if (check == "true") low = high = 1.0;
-  }
-  const double tolerance = required(table, row, "abs_tol") + required(table, row, "rel_tol") * std::max(std::abs(low), std::abs(high));
-  const bool bounded_below = check != "at_most", bounded_above = check != "at_least" && check != "order_at_least";
-  if (check != "close" && check != "interval" && check != "true" && bounded_below && bounded_above)
-    throw InputError(concat(table.where(row), ": unknown check ", quote(check)));
-  double outside = 0.0;
-  if (bounded_below) outside = std::max(outside, low - got);
-  if (bounded_above) outside = std::max(outside, got - high);
-  if (std::isnan(got)) outside = got;
-  return outside == 0.0 ? 0.0 : outside / tolerance;
-}
-
-bool is_known(const std::string& note) {
-  return note.starts_with("KNOWN:") || (note.starts_with("OPTIONAL:") && note.find("KNOWN:") != std::string::npos);
-}
-
-Verdict judge(const Table& table, int row, const fs::path& results) {
-  const auto text = [&](const char* column) { return table.text(row, table.column(column)); };
-  Verdict v{text("id"), text("experiment"), text("case"), text("quantity"), text("value"),
-            text("source"), text("locator"), "MISSING", text("note"), std::nan(""), std::nan("")};
-  if (v.note.starts_with("OPTIONAL:")) v.status = "NOT RUN";
-  const fs::path file = results / v.experiment / (v.case_name + ".csv");
-  if (!fs::exists(file)) return v;
-  const Table result = read_csv(file);
-  if (result.rows.empty() || !result.has_column(v.quantity)) return v;
-  v.got = result.number(0, result.column(v.quantity));
-  v.error = error_in_tolerances(table, row, v.got);
-  v.status = v.error <= 1.0 ? "PASS" : is_known(v.note) ? "KNOWN" : "FAIL";
-  return v;
-}
-
-std::string fixed(double value, int digits) {
+std::string digits(double value, int count) {
   char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  std::snprintf(buffer, sizeof buffer, "%.*g", count, value);
   return buffer;
 }
 
-std::vector<Verdict> judge_all(const fs::path& reference, const fs::path& results) {
-  if (!fs::is_directory(reference)) throw InputError(concat("no folder ", quote(reference.string()), " with reference values"));
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(reference))
-    if (entry.path().extension() == ".csv") files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  std::vector<Verdict> verdicts;
-  for (const fs::path& file : files) {
-    const Table table = read_csv(file);
-    for (int row = 0; row < static_cast<int>(table.rows.size()); ++row) verdicts.push_back(judge(table, row, results));
-  }
-  return verdicts;
-}
-
-void print(const std::vector<Verdict>& verdicts) {
-  std::printf("%-34s %-28s %12s %12s %8s  %-12s %s\n", "case", "quantity", "got", "expected", "error", "source", "verdict");
+void print_rows(const std::vector<Verdict>& verdicts, bool all) {
   std::string experiment;
   for (const Verdict& v : verdicts) {
-    if (v.experiment != experiment) std::printf("%s\n", (experiment = v.experiment).c_str());
-    std::printf("  %-32s %-28s %12s %12s %8s  %-12s %s\n", v.case_name.c_str(), v.quantity.c_str(),
-                v.judged() ? fixed(v.got, 6).c_str() : "-", v.expected.c_str(),
-                v.judged() ? fixed(v.error, 2).c_str() : "-", v.source.c_str(), v.status.c_str());
+    const ReferenceRow& r = v.reference;
+    if (!all && (v.status == Status::pass || v.status == Status::not_run)) continue;
+    if (experiment.empty())
+      std::printf("%-34s %-28s %12s %12s %8s  %-12s %s\n", "case", "quantity", "got", "expected", "error", "source",
+                  "verdict");
+    if (r.experiment != experiment) std::printf("%s\n", (experiment = r.experiment).c_str());
+    std::printf("  %-32s %-28s %12s %12s %8s  %-12s %s%s\n", r.case_name.c_str(), r.quantity.c_str(),
+                v.has_number() ? digits(v.got, 6).c_str() : "-", r.value.c_str(),
+                v.has_number() ? digits(v.error, 2).c_str() : "-", r.source.c_str(), name_of(v.status).c_str(),
+                v.problem.empty() ? "" : concat(": ", v.problem).c_str());
   }
 }
 
-constexpr const char* usage = "usage: verify [results=DIR] [reference=DIR] [missing=fail|allow]";
+void print_reasons(const std::vector<Verdict>& verdicts) {
+  std::map<std::string, int> rows;
+  for (const Verdict& v : verdicts)
+    if (v.status == Status::measured || v.status == Status::unexplained)
+      ++rows[concat(name_of(v.status), ", ", v.reference.experiment, ": ", known_note(v.reference.note).reason)];
+  for (const auto& [reason, count] : rows) std::printf("%d %s\n", count, reason.c_str());
+}
 
-int run(Arguments& options) {
-  const std::vector<Verdict> verdicts = judge_all(options["reference"], options["results"]);
-  print(verdicts);
-  std::map<std::string, int> count;
+void print_objects(const Summary& summary) {
+  std::printf("%-20s %9s %9s %9s %13s %17s\n", "published", "numbers", "agree", "measured", "unexplained",
+              "fail or not run");
+  for_each_object(summary, [](const std::string& name, const std::array<int, 5>& n) {
+    std::printf("%-20s %9d %9d %9d %13d %17d\n", name.c_str(), n[0], n[1], n[2], n[3], n[4]);
+  });
+}
+
+void write(const fs::path& folder, const std::vector<Verdict>& verdicts, const Summary& summary) {
+  fs::create_directories(folder);
   std::string csv = "id,experiment,case,quantity,got,expected,error_in_tolerances,source,locator,verdict,note\n";
   for (const Verdict& v : verdicts) {
-    ++count[v.status];
-    csv += concat(csv_field(v.id), ",", v.experiment, ",", csv_field(v.case_name), ",", v.quantity, ",", v.got, ",", csv_field(v.expected), ",",
-                  v.error, ",", v.source, ",", csv_field(v.locator), ",", v.status, ",", csv_field(v.note), "\n");
+    const ReferenceRow& r = v.reference;
+    csv += concat(csv_field(r.id), ",", csv_field(r.experiment), ",", csv_field(r.case_name), ",", csv_field(r.quantity),
+                  ",", v.got, ",", csv_field(r.value), ",", v.error, ",", r.source, ",", csv_field(r.locator), ",",
+                  name_of(v.status), ",", csv_field(r.note), "\n");
   }
-  fs::create_directories(options["results"]);
-  write_file_atomically(fs::path(options["results"]) / "verdict.csv", csv);
-  std::map<std::string, int> known;
-  for (const Verdict& v : verdicts)
-    if (v.status == "KNOWN") ++known[concat(v.experiment, ": ", known_reason(v.note))];
-  for (const auto& [note, rows] : known) std::printf("KNOWN, %d rows, %s\n", rows, note.c_str());
-  std::string line = "verdict:";
-  for (const std::string& status : verdict_statuses) line += concat(line.back() == ':' ? " " : ", ", count[status], " ", status);
-  std::printf("%s\n", line.c_str());
-  return count["FAIL"] > 0 || (count["MISSING"] > 0 && options["missing"] == "fail") ? 1 : 0;
+  write_file_atomically(folder / "verdict.csv", csv);
+  write_file_atomically(folder / "verdict_summary.csv", summary_csv(summary));
+}
+
+// The README's table is that of `make reproduce`: optional rows count as not run.
+bool has_table_of(const fs::path& readme, const std::vector<Verdict>& verdicts) {
+  Summary summary;
+  for (const Verdict& v : verdicts) summary.add(v.reference, v.reference.optional ? Status::not_run : v.status);
+  const std::string table = summary_markdown(summary);
+  if (read_text_file(readme, "the page with the table").find(table) != std::string::npos) return true;
+  std::printf("%s: its table by object is not that of this run, which is\n%s", readme.c_str(), table.c_str());
+  return false;
+}
+
+constexpr const char* usage =
+    "usage: verify [results=DIR] [reference=DIR] [missing=fail|allow] [rows=all|differing] [readme=FILE]";
+
+int run(Arguments& options) {
+  if (options["rows"] != "all" && options["rows"] != "differing")
+    throw InputError(concat("rows = all or differing, not ", quote(options["rows"])));
+  const Status if_absent = options["missing"] == "allow" ? Status::not_run : Status::missing;
+  std::vector<Verdict> verdicts;
+  Summary summary;
+  int failed = 0;
+  for (const ReferenceRow& row : read_references(options["reference"])) {
+    verdicts.push_back(judge(row, options["results"], if_absent));
+    const Status status = verdicts.back().status;
+    summary.add(row, status);
+    failed += status == Status::fail || status == Status::stale || status == Status::missing;
+  }
+  write(options["results"], verdicts, summary);
+  print_rows(verdicts, options["rows"] == "all");
+  print_reasons(verdicts);
+  print_objects(summary);
+  const bool is_complete = std::none_of(verdicts.begin(), verdicts.end(),
+                                        [](const Verdict& v) { return v.status == Status::missing; });
+  const bool readme_fits = options["readme"].empty() || !is_complete || has_table_of(options["readme"], verdicts);
+  std::printf("%s\n", summary_line(summary).c_str());
+  return failed > 0 || !readme_fits ? 1 : 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   const char* help =
-      "Compares every number of DIR with the reference values, prints the verdict and writes it to\n"
-      "DIR/verdict.csv. Exit status 1 if a number fails or, unless missing=allow, is missing.\n";
+      "Compares every number of DIR with the reference values, prints the verdict and writes it to DIR/verdict.csv and,\n"
+      "counted by table and figure of the paper, to DIR/verdict_summary.csv. Exit status 1 if a number fails or, unless\n"
+      "missing=allow, is missing. rows=differing prints those alone that do not pass; readme=FILE compares the table by\n"
+      "object in FILE with this run.\n";
   return run_on_results("verify", usage, help,
-                        {{"results", "results"}, {"reference", "reference_data"}},
+                        {{"results", "results"}, {"reference", "reference_data"}, {"rows", "all"}, {"readme", ""}},
                         argc, argv, run);
 }
