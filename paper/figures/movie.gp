@@ -15,11 +15,14 @@ frames = int(row_records / count)
 array a[count]
 array b[count]
 array fixed[count]
-stats bodies using (n = int(column(0)) + 1, fixed[n] = column("fixed"), a[n] = column("a"), b[n] = column("b")) nooutput
-length(body) = 2 * a[int(body) + 1]
-breadth(body) = 2 * b[int(body) + 1]
+stats bodies using (n = int(column(0)) + 1, fixed[n] = column("fixed"), a[n] = column("a"), b[n] = column("b")) \
+      nooutput name "given"
+# Runs of earlier builds have rows of the inner wall, which is no body of the file.
+x_of(body) = body < given_records ? column("x") : NaN
+length(body) = body < given_records ? 2 * a[int(body) + 1] : 0
+breadth(body) = body < given_records ? 2 * b[int(body) + 1] : 0
 force(component) = valid(component) ? column(component) : 0  # empty in the final configuration
-colour(body, force_x, force_y) = fixed[int(body) + 1] == 1 ? fixed_colour : \
+colour(body, force_x, force_y) = body < given_records && fixed[int(body) + 1] == 1 ? fixed_colour : \
                                  force_x**2 + force_y**2 > 0 ? contact_colour : body_colour
 
 set xrange [-half:half]
@@ -29,6 +32,6 @@ do for [k = 1:words(walls)] {
 }
 do for [frame = 0:frames - 1:stride] {
   plot trajectory every ::(frame * count)::((frame + 1) * count - 1) \
-           using "x":"y":(length(column("body"))):(breadth(column("body"))):(column("theta") * degrees) \
+           using (x_of(column("body"))):"y":(length(column("body"))):(breadth(column("body"))):(column("theta") * degrees) \
                  :(colour(column("body"), force("fx"), force("fy"))) with ellipses linecolor rgb variable
 }
