@@ -200,9 +200,9 @@ TEST_CASE("an annulus that cannot be, or that the bodies do not fit in, is bad i
   refused(inside, "flow=shear", {"flow = 'shear'", "annulus"});
   refused(inside, "fields_at=1", {"fields_at = '1'", "0.3"});
   refused(inside, "geometry=unbounded", {"case.txt:8", "flow"});
-  refused(inside + ".5,.5,-3.75,0,0,0\n", "rate=1", {"bodies.csv:3", "body 1", "0.25", "outer wall of radius 4"});
-  refused(inside + ".5,.5,-1.25,0,0,1\n", "rate=1", {"bodies.csv:3", "body 1", "0.25", "inner wall of radius 1"});
-  refused(inside + ".5,.5,2.5,0,0,1\n", "rate=1", {"bodies.csv:3", "bodies 0 and 1", "overlap by 0.5"});
+  refused(inside + ".5,.5,-3.75,0,0,0\n", "threads=1", {"bodies.csv:3", "body 1", "0.25", "outer wall of radius 4"});
+  refused(inside + ".5,.5,-1.25,0,0,1\n", "threads=1", {"bodies.csv:3", "body 1", "0.25", "inner wall of radius 1"});
+  refused(inside + ".5,.5,2.5,0,0,1\n", "threads=1", {"bodies.csv:3", "bodies 0 and 1", "overlap by 0.5"});
   check_refused_line("outer_radius = 3", {"outer_radius", "geometry = annulus"});
 }
 
