@@ -203,10 +203,13 @@ TEST_CASE("a rejected step is halved, down to 1e-6 of time_step and not below") 
   CHECK(halvings > 0.5);
   CHECK(std::abs(halvings - std::round(halvings)) < 1e-12);
 
-  how.time_step = 1e5;
+  // The geometry allows more than the .5 of the first step, of which a half is taken, and .025 in the second.
+  how.time_step = 1e4;
   CHECK(observe(shot, how).failure == "");
   how.time_step = 1e6;
   CHECK(observe(shot, how).failure.find("halved further") != std::string::npos);
+  how.time_step = 1e7;
+  CHECK(observe(shot, how).failure.find("below the smallest step") != std::string::npos);
 }
 
 TEST_CASE("a rejected attempt leaves the bodies bit for bit, and a later one does not depend on it") {
