@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -77,11 +78,7 @@ struct Count {
 
   void add(Status status) { ++of[static_cast<std::size_t>(status)]; }
   int operator[](Status status) const { return of[static_cast<std::size_t>(status)]; }
-  int numbers() const {
-    int sum = 0;
-    for (const int n : of) sum += n;
-    return sum;
-  }
+  int numbers() const { return std::accumulate(of.begin(), of.end(), 0); }
   // Of the table by object: numbers, agree, differ (measured), unexplained, fail or not run.
   std::array<int, 5> cells() const {
     const Count& n = *this;
@@ -112,15 +109,15 @@ inline std::string summary_line(const Summary& summary) {
   std::string line, not_run;
   for (const Origin origin : {Origin::published, Origin::exact, Origin::baseline}) {
     const Count& count = summary[origin];
-    const bool always = origin == Origin::published;
-    const auto part = [&](Status status, const std::string& words, bool even_none) {
-      if (count[status] > 0 || even_none) line += concat(", ", count[status], " ", words);
+    const auto part = [&](Status status, const std::string& words) {
+      const bool always = status == Status::pass || (origin == Origin::published && status < Status::fail);
+      if (always || count[status] > 0) line += concat(", ", count[status], " ", words);
     };
     line += concat(name_of(origin), ": ", count.numbers(), " numbers");
-    part(Status::pass, "agree", true);
-    part(Status::measured, "differ for a measured reason", always);
-    part(Status::unexplained, "differ without one", always);
-    for (const Status status : {Status::fail, Status::stale, Status::missing}) part(status, name_of(status), false);
+    part(Status::pass, "agree");
+    part(Status::measured, "differ for a measured reason");
+    part(Status::unexplained, "differ without one");
+    for (const Status status : {Status::fail, Status::stale, Status::missing}) part(status, name_of(status));
     line += "; ";
     if (const int n = count[Status::not_run]) not_run += concat(not_run.empty() ? "" : ", ", n, " ", name_of(origin));
   }

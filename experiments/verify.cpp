@@ -28,14 +28,14 @@ std::string digits(double value, int count) {
   return buffer;
 }
 
-void print_rows(const std::vector<Verdict>& verdicts, bool all) {
+bool differs(const Verdict& v) { return v.status != Status::pass && v.status != Status::not_run; }
+
+void print_rows(const std::vector<Verdict>& verdicts) {
+  if (verdicts.empty()) return;
+  std::printf("%-34s %-28s %12s %12s %8s  %-12s %s\n", "case", "quantity", "got", "expected", "error", "source", "verdict");
   std::string experiment;
   for (const Verdict& v : verdicts) {
     const ReferenceRow& r = v.reference;
-    if (!all && (v.status == Status::pass || v.status == Status::not_run)) continue;
-    if (experiment.empty())
-      std::printf("%-34s %-28s %12s %12s %8s  %-12s %s\n", "case", "quantity", "got", "expected", "error", "source",
-                  "verdict");
     if (r.experiment != experiment) std::printf("%s\n", (experiment = r.experiment).c_str());
     std::printf("  %-32s %-28s %12s %12s %8s  %-12s %s%s\n", r.case_name.c_str(), r.quantity.c_str(),
                 v.has_number() ? digits(v.got, 6).c_str() : "-", r.value.c_str(),
@@ -100,7 +100,9 @@ int run(Arguments& options) {
     failed += status == Status::fail || status == Status::stale || status == Status::missing;
   }
   write(options["results"], verdicts, summary);
-  print_rows(verdicts, options["rows"] == "all");
+  std::vector<Verdict> shown = verdicts;
+  if (options["rows"] == "differing") std::erase_if(shown, [](const Verdict& v) { return !differs(v); });
+  print_rows(shown);
   print_reasons(verdicts);
   print_objects(summary);
   const bool is_complete = std::none_of(verdicts.begin(), verdicts.end(),
