@@ -42,12 +42,12 @@ Workspace long_step() {
 TEST_CASE("each signal leaves a checkpoint, from which the run goes on to the same bytes") {
   const Workspace here(case_text("shear", 64, 0.01, 10), discs);
   REQUIRE(here.run({"case.txt", "output=whole"}).status == 0);
-  for (const auto& [signal, status] : {std::pair(SIGHUP, 129), {SIGINT, 130}, {SIGPIPE, 141}, {SIGTERM, 143}}) {
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) {
     CAPTURE(signal);
     fs::remove_all(here.path() / "out");
     const ProgramRun run = stopped(here, signal, {"case.txt", "checkpoint_every=0"});
     CAPTURE(run.errors);
-    CHECK(run.status == status);
+    CHECK(run.status == 128 + signal);
     CHECK(contains(run.errors, "; the same command goes on from out/checkpoint\n"));
     const ProgramRun rest = here.run({"case.txt"});
     CHECK(rest.status == 0);
