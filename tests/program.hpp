@@ -71,9 +71,7 @@ inline ProgramRun run_program(const std::filesystem::path& program, const std::v
                               const std::string& before = "") {
   const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
   const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
-  // Threads that wait actively are ten times slower where other work, such as more tests, has the cores.
-  std::string command = concat("cd ", shell_word(folder.string()), " && ", before, "OMP_WAIT_POLICY=passive ", starter,
-                               shell_word(program.string()));
+  std::string command = concat("cd ", shell_word(folder.string()), " && ", before, starter, shell_word(program.string()));
   for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
   const int status = std::system(concat(command, " > ", shell_word(out), " 2> ", shell_word(err)).c_str());
   const int exit_status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
