@@ -13,13 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The pages, by the name of their file.
-std::map<std::string, std::string> pages() {
-  std::map<std::string, std::string> texts;
+struct Page {
+  std::string name, text;
+};
+
+std::vector<Page> pages() {
+  std::vector<Page> found;
   for (const char* folder : {".", "paper"})
     for (const auto& entry : fs::directory_iterator(folder))
-      if (entry.path().extension() == ".md") texts[entry.path().filename().string()] = content_of(entry.path());
-  return texts;
+      if (entry.path().extension() == ".md") found.push_back({entry.path().filename().string(), content_of(entry.path())});
+  return found;
 }
 
 std::vector<std::string> matches(const std::string& text, const std::string& pattern, int group = 1) {
@@ -108,9 +111,9 @@ TEST_CASE("the numbers that two of the cases promise come out") {
 
 TEST_CASE("every documented command of simulate runs, and every case that a page names is there") {
   int tried = 0;
-  for (const auto& [name, text] : pages()) {
-    CAPTURE(name);
-    for (const std::string& line : commands(text)) {
+  for (const Page& page : pages()) {
+    CAPTURE(page.name);
+    for (const std::string& line : commands(page.text)) {
       if (!line.starts_with("build/simulate ")) continue;
       std::vector<std::string> arguments = words(line);
       arguments.erase(arguments.begin());
@@ -125,19 +128,19 @@ TEST_CASE("every documented command of simulate runs, and every case that a page
 
 TEST_CASE("every file that a page names is there") {
   const std::set<std::string> suffixes = {".cpp", ".hpp", ".csv", ".txt", ".md", ".sh"};
-  for (const auto& [page, text] : pages()) {
-    CAPTURE(page);
-    for (const std::string& name : matches(text, "`((?:src|tests|experiments|paper|reference_data)/[^`]*)`")) {
+  for (const Page& page : pages()) {
+    CAPTURE(page.name);
+    for (const std::string& name : matches(page.text, "`((?:src|tests|experiments|paper|reference_data)/[^`]*)`")) {
       CAPTURE(name);
       if (name.find_first_of("*N") != std::string::npos && !name.ends_with(".md")) continue;  // a pattern, or NAME
       const bool is_program = fs::path(name).extension().empty() && fs::exists(name + ".cpp");
       CHECK((is_program || fs::exists(name)));
     }
-    for (const std::string& name : matches(text, "\\]\\(([^):]*)\\)")) {
+    for (const std::string& name : matches(page.text, "\\]\\(([^):]*)\\)")) {
       CAPTURE(name);
       CHECK((fs::exists(name) || fs::exists(fs::path("paper") / name)));
     }
-    for (const std::string& name : matches(text, "`((?:test|convergence|property)_[a-z_0-9]+)`")) {
+    for (const std::string& name : matches(page.text, "`((?:test|convergence|property)_[a-z_0-9]+)`")) {
       CAPTURE(name);
       CHECK(fs::exists(concat("tests/", name, ".cpp")));
     }
@@ -166,10 +169,10 @@ TEST_CASE("every make target that a page names is one") {
   for (const std::string& name : matches(makefile, "COUETTE_TABLES     = ([a-z0-9_ ]+)"))
     for (const std::string& word : words(name)) targets.insert(word);
   int tried = 0;
-  for (const auto& [page, text] : pages()) {
-    CAPTURE(page);
-    std::vector<std::string> lines = commands(text);
-    for (const std::string& inline_code : matches(text, "`(make [^`]*)`")) lines.push_back(inline_code);
+  for (const Page& page : pages()) {
+    CAPTURE(page.name);
+    std::vector<std::string> lines = commands(page.text);
+    for (const std::string& inline_code : matches(page.text, "`(make [^`]*)`")) lines.push_back(inline_code);
     for (const std::string& line : lines) {
       if (!line.starts_with("make ")) continue;
       for (const std::string& word : words(line.substr(5))) {
@@ -189,9 +192,9 @@ TEST_CASE("every key and every column that a page names is one") {
   const ProgramRun help = run_program(simulate_program(), {"--help"}, ".");
   for (const std::string& key : keys) CHECK(help.output.find(concat("\n  ", key, " ")) != std::string::npos);
   int tried = 0;
-  for (const auto& [page, text] : pages()) {
-    CAPTURE(page);
-    for (const std::string& key : matches(text, "`([a-z_]+) ?= ?[^`]*`")) {
+  for (const Page& page : pages()) {
+    CAPTURE(page.name);
+    for (const std::string& key : matches(page.text, "`([a-z_]+) ?= ?[^`]*`")) {
       CAPTURE(key);
       if (key == "key") continue;  // `key = value`
       CHECK(keys.contains(key));
