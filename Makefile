@@ -5,33 +5,37 @@ CXXFLAGS ?= -O3
 BUILD    ?= build
 RESULTS  ?= results
 
-OPENMP   := $(shell printf '\043include <omp.h>\nint main(){return omp_get_max_threads()<1;}' | \
-              $(CXX) -fopenmp -x c++ -o /dev/null - 2>/dev/null && echo -fopenmp)
+# gnuplot reads UTF-8, and numbers have a point, wherever this runs.
+export LC_ALL = C.UTF-8
+
 # g++ 12 warns of uninitialised registers inside its own AVX-512 intrinsics (GCC bug 105593); clang still looks.
 IS_CLANG := $(shell $(CXX) --version 2>/dev/null | grep -ci clang)
 WARNINGS  = -Wall -Wextra -Wshadow $(if $(filter 0,$(IS_CLANG)),-Wno-uninitialized -Wno-maybe-uninitialized)
 ARCH      = $(if $(PORTABLE),,-march=native)
-FLAGS     = -std=c++20 $(WARNINGS) $(CXXFLAGS) $(ARCH) $(OPENMP) $(SANITIZERS) -Isrc -Iexperiments -MMD -MP
+# The number of threads must not change the order of Eigen's sums: it gets none.
+FLAGS     = -std=c++20 $(WARNINGS) $(CXXFLAGS) $(ARCH) $(SANITIZERS) -pthread -DEIGEN_DONT_PARALLELIZE -Isrc -Iexperiments
 LIBS      = -lfftw3 $(LDLIBS)
 
 names        = $(basename $(notdir $(wildcard $(1))))
 PROGRAMS    := simulate bench bench_fmm
 EXPERIMENTS := $(call names,experiments/*.cpp)
-LIBRARY     := $(filter-out $(PROGRAMS),$(call names,src/*.cpp))
+# They read, check and write text.
+TEXT        := bodies case case_keys checkpoint csv output_folder progress recorder run scales text vtk
+LIBRARY     := $(filter-out $(PROGRAMS) $(TEXT),$(call names,src/*.cpp)) $(TEXT)
 TESTS       := $(filter-out fuzz_input,$(call names,tests/*.cpp))
 BINARIES    := $(addprefix $(BUILD)/,$(PROGRAMS) $(EXPERIMENTS))
 OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $(TESTS) fuzz_input)
 
 .DELETE_ON_ERROR:
 .SUFFIXES:
-.PHONY: help deps deps-figures all test reproduce reproduce-all reproduce-quick verify figures movies paper bench \
+.PHONY: help deps deps-figures all objects test reproduce reproduce-all reproduce-quick verify figures movies paper bench \
         sanitize sanitize-threads fuzz coverage \
         clean FORCE
 .SECONDARY:
 
 help:
 	@echo 'make deps             install Eigen, FFTW and doctest where they are missing'
-	@echo 'make test             build and run the tests'
+	@echo 'make test             build and run the tests; VERBOSE=1 prints what they measure'
 	@echo 'make reproduce        run what decides each published number, and compare'
 	@echo 'make reproduce-all    the same with all variants: other contact models, steps, nodes and starts; hours'
 	@echo '  SEEDS=n             reproduce-all with n other random starts of each suspension between cylinders, 3 if not given'
@@ -42,6 +46,7 @@ help:
 	@echo 'make movies           moving pictures of three suspensions, minutes (gnuplot)'
 	@echo 'make deps-figures     install gnuplot and LaTeX where they are missing; nothing else needs them'
 	@echo 'make all              build everything'
+	@echo 'make objects          compile everything, tests too, and link nothing'
 	@echo 'make bench            time the kernels, the multipole method and the solver'
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make sanitize-threads  the same under the thread sanitizer'
@@ -55,51 +60,79 @@ help:
 	@echo '-j2          independent work side by side'
 
 all: $(BINARIES)
+objects: $(OBJECTS)
 
 # --- dependencies ---------------------------------------------------------------------------------------
 HEADERS  = eigen3/Eigen/Core fftw3.h doctest/doctest.h
 missing  = for h in $(HEADERS); do echo "\#include <$$h>" | $(CXX) -std=c++20 -x c++ -fsyntax-only - 2>/dev/null || echo $$h; done
-# $(call install,packages,what they are)
-install  = if command -v apt-get >/dev/null; then \
-             root=; [ "$$(id -u)" = 0 ] || root=sudo; \
+# $(call install,packages of apt,of dnf,of brew,of conda,modules)
+install  = root=; [ "$$(id -u)" = 0 ] || root=sudo; \
+           if command -v apt-get >/dev/null && { [ -z "$$root" ] || command -v $$root >/dev/null; }; then \
              $$root apt-get update -q && $$root env DEBIAN_FRONTEND=noninteractive \
                apt-get install -q -y --no-install-recommends $(1); \
-           else echo 'Please install $(2).' >&2; exit 1; fi
+           else \
+             printf '%s\n' 'It takes apt-get, and root or sudo, to install it from here. Otherwise one of these lines does, where it may be typed:' \
+               '  apt install $(1)' '  dnf install $(2)' '  brew install $(3)' \
+               '  conda install -c conda-forge $(4)' '  module load $(5)  (the names of a site: module avail)' \
+               'The compiler finds what is in another folder, DIR, after' \
+               '  export CPLUS_INCLUDE_PATH=DIR/include LIBRARY_PATH=DIR/lib LD_LIBRARY_PATH=DIR/lib' >&2; \
+             exit 1; \
+           fi
 deps:
 	@if ! command -v $(CXX) >/dev/null || [ -n "$$($(missing))" ]; then \
-	  echo 'Missing here:' $$($(missing)); \
-	  $(call install,g++ libeigen3-dev libfftw3-dev doctest-dev,a C++20 compiler with Eigen 3 and FFTW 3 and doctest); \
+	  echo 'Missing here:' $$(command -v $(CXX) >/dev/null || echo $(CXX)) $$($(missing)); \
+	  $(call install,g++ libeigen3-dev libfftw3-dev doctest-dev,gcc-c++ eigen3-devel fftw-devel doctest-devel,$\
+	    gcc eigen fftw doctest,gxx eigen fftw doctest,gcc eigen fftw doctest); \
 	fi
 deps-figures:
 	@if ! command -v gnuplot >/dev/null || ! kpsewhich booktabs.sty lmodern.sty >/dev/null; then \
-	  $(call install,gnuplot-nox fonts-dejavu texlive-latex-recommended lmodern,gnuplot and LaTeX with booktabs and lmodern); \
+	  echo 'Missing here: gnuplot, or LaTeX with booktabs and lmodern'; \
+	  $(call install,gnuplot-nox fonts-dejavu texlive-latex-recommended lmodern,$\
+	    gnuplot dejavu-sans-fonts texlive-collection-latexrecommended texlive-lm,gnuplot texlive,gnuplot texlive-core,gnuplot texlive); \
 	fi
 
 # --- compilation ----------------------------------------------------------------------------------------
 # The stamp holds the compiler and its flags: everything is rebuilt when they change.
+STAMP := $(CXX) $(FLAGS) $(LIBS)
 $(BUILD)/flags: FORCE | $(filter deps,$(MAKECMDGOALS))
 	@mkdir -p $(BUILD)
-	@echo '$(CXX) $(FLAGS) $(LIBS)' | cmp -s - $@ || echo '$(CXX) $(FLAGS) $(LIBS)' > $@
+	@echo '$(STAMP)' | cmp -s - $@ || echo '$(STAMP)' > $@
 
-$(OBJECTS): $(BUILD)/flags
+# Eigen takes most of the time of most files, and is therefore compiled once. With other flags than these the compiler
+# falls back on the header beside it. ccache, which keeps objects, does without.
+ifeq ($(findstring ccache,$(CXX)),)
+PRECOMPILED = $(BUILD)/precompiled.hpp.gch
+INCLUDE     = -include $(BUILD)/precompiled.hpp
+$(BUILD)/precompiled.hpp: src/precompiled.hpp $(BUILD)/flags
+	@cp $< $@
+PRECOMPILE := $(CXX) $(FLAGS)
+$(PRECOMPILED): $(BUILD)/precompiled.hpp
+	$(PRECOMPILE) -MD -MP -x c++-header $< -o $@
+endif
+COMPILE = $(CXX) $(FLAGS) $(INCLUDE) -MMD -MP -c $< -o $@
+LIGHTLY = $(subst -O3,-O1,$(COMPILE))
+
+$(OBJECTS): $(BUILD)/flags $(PRECOMPILED)
 # Random starts have the same bits with every compiler: no product is fused with a sum.
 $(BUILD)/packing.o: FLAGS += -ffp-contract=off
 $(BUILD)/%.o: src/%.cpp
-	$(CXX) $(FLAGS) -c $< -o $@
+	$(COMPILE)
+$(TEXT:%=$(BUILD)/%.o): $(BUILD)/%.o: src/%.cpp
+	$(LIGHTLY)
 $(BUILD)/%.o: experiments/%.cpp
-	$(CXX) $(FLAGS) -c $< -o $@
+	$(LIGHTLY)
 $(BUILD)/%.o: tests/%.cpp
-	$(CXX) $(FLAGS) -c $< -o $@
+	$(LIGHTLY) -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
-$(BUILD)/libstokes.a: $(LIBRARY:%=$(BUILD)/%.o)
-	@rm -f $@
-	ar rcs $@ $^
-$(BUILD)/tests: $(TESTS:%=$(BUILD)/%.o) $(BUILD)/libstokes.a
-	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
-$(BUILD)/fuzz_input: $(BUILD)/fuzz_input.o $(BUILD)/input_fuzzer.o $(BUILD)/libstokes.a
-	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
-$(BINARIES): $(BUILD)/%: $(BUILD)/%.o $(BUILD)/libstokes.a
-	$(CXX) $(FLAGS) $^ -o $@ $(LIBS)
+# Of an inline function that several objects have, the linker takes the first: those with -O3 come first.
+LINK   = $(CXX) $(FLAGS) $^ -o $@ $(LIBS)
+SHARED = $(LIBRARY:%=$(BUILD)/%.o)
+$(BUILD)/tests: $(SHARED) $(TESTS:%=$(BUILD)/%.o)
+	$(LINK)
+$(BUILD)/fuzz_input: $(SHARED) $(BUILD)/fuzz_input.o $(BUILD)/input_fuzzer.o
+	$(LINK)
+$(BINARIES): $(BUILD)/%: $(SHARED) $(BUILD)/%.o
+	$(LINK)
 
 -include $(wildcard $(BUILD)/*.d)
 
@@ -115,10 +148,9 @@ sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \
 	  SANITIZERS='-fsanitize=address,undefined -fno-sanitize-recover=all' test
 
-# The thread sanitizer knows std::thread, not OpenMP. TESTS_RUN='-sf=*test_fmm*' for some of the tests.
+# TESTS_RUN='-sf=*test_fmm*' for some of the tests.
 sanitize-threads:
-	$(MAKE) BUILD=$(BUILD)/sanitize_threads CXXFLAGS='-O1 -g' PORTABLE=1 OPENMP='-pthread -DSTOKES_STD_THREADS' \
-	  SANITIZERS='-fsanitize=thread' test
+	$(MAKE) BUILD=$(BUILD)/sanitize_threads CXXFLAGS='-O1 -g' PORTABLE=1 SANITIZERS='-fsanitize=thread' test
 
 # Programs that are killed in a test leave no counts.
 GCOV ?= gcov
@@ -205,6 +237,8 @@ $(eval $(call experiment,adaptive_steps,,,$(ADAPTIVE_CASES)))
 couette_cases:  # their names, for experiments/submit_couette.sh
 	@printf '%s\n' $(COUETTE_CASES) $(COUETTE_ALL_CASES)
 
+# simulate is what a reader tries next.
+reproduce reproduce-quick: $(BUILD)/simulate
 reproduce reproduce-all verify: $(BUILD)/verify
 	@$(BUILD)/verify results=$(RESULTS) readme=README.md
 reproduce-quick: $(BUILD)/verify

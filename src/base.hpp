@@ -17,9 +17,13 @@
 #include <stdexcept>
 #include <string>
 
-// Eigen's own threading changes the order of its sums with the number of threads; ours does not.
-#define EIGEN_DONT_PARALLELIZE
 #include <eigen3/Eigen/Core>
+
+// Eigen's own threads change the order of its sums with their number; ours do not. In a header this would come too late
+// for files that include Eigen first, and the linker would mix both kinds of products.
+#ifndef EIGEN_DONT_PARALLELIZE
+#error "compile every file with -DEIGEN_DONT_PARALLELIZE, as the makefile does"
+#endif
 
 namespace stokes {
 
