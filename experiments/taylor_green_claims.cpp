@@ -105,7 +105,7 @@ struct Solve {
 };
 
 StokesSystem system_of(const Suspension& bodies, const Solve& solve, ShapeCache& shapes) {
-  const std::vector<Discretisation> nodes = solve.refine == Refine::near ? refined_nodes(bodies, solve.points, 1.0)
+  const std::vector<Discretisation> nodes = solve.refine == Refine::near ? refined_nodes(bodies, solve.points, near_tolerance)
                                                                          : equal_nodes(bodies, solve.points);
   return {bodies, nodes, shapes, {.gmres_tolerance = solve.tolerance, .preconditioner = solve.preconditioner}};
 }

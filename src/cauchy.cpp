@@ -41,14 +41,21 @@ Curve refined(const Curve& curve, int upsampling) {
   return Curve(fourier_upsample(curve.position, fine), first, fourier_derivative(first));
 }
 
-PoleTerms pole_terms(const Curve& curve, Complex z) {
+PoleTerms pole_terms(const Curve& curve, const Target& z) {
   PoleTerms terms;
-  terms.distance = std::sqrt((curve.position.array() - z).abs2().minCoeff(&terms.nearest));
+  terms.difference = curve.from(z);
+  terms.distance = std::sqrt(terms.difference.array().abs2().minCoeff(&terms.nearest));
   terms.p.resize(curve.size());
-  for (Eigen::Index k = 0; k < curve.size(); ++k) terms.p[k] = quotient(curve.derivative[k], curve.position[k] - z);
+  for (Eigen::Index k = 0; k < curve.size(); ++k) terms.p[k] = quotient(curve.derivative[k], terms.difference[k]);
   terms.p[terms.nearest] = 0.0;
   terms.others = terms.p.sum();
   return terms;
+}
+
+std::vector<Target> targets(const std::vector<Complex>& z) {
+  std::vector<Target> result;
+  for (const Complex point : z) result.push_back({point});
+  return result;
 }
 
 Complex winding(const Curve& curve, Side side) {
@@ -60,24 +67,27 @@ Complex winding(const Curve& curve, Side side) {
 
 // p_k over Sum_k p_k, or on the exterior side, where the rule is applied to zeta f, which tends to a constant at
 // infinity, over Sum_k p_k - winding. Both divided by p of the nearest node, which may be infinite.
-void barycentric_weights(const Curve& curve, Complex winding, Complex z, const PoleTerms& terms,
+void barycentric_weights(const Curve& curve, Complex winding, const PoleTerms& terms,
                          Eigen::Ref<ComplexVector> weight) {
   const Eigen::Index j = terms.nearest;
-  const Complex over_nearest = quotient(curve.position[j] - z, curve.derivative[j]);
+  const Complex over_nearest = quotient(terms.difference[j], curve.derivative[j]);
   const Complex of_nearest = reciprocal(1.0 + (terms.others - winding) * over_nearest);
   weight = (over_nearest * of_nearest) * terms.p;
   weight[j] = of_nearest;
 }
 
 CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
-    : side_(side), fine_(refined(curve, upsampling)), winding_(winding(fine_, side)),
-      slope_(fine_.derivative.cwiseInverse()),
-      bend_(-fourier_derivative(fine_.derivative).cwiseProduct(slope_.cwiseProduct(slope_))),
-      poles_(ComplexVector::Zero(fine_.size())) {
+    : CloseEvaluation(curve, refined(curve, upsampling), side) {}
+
+CloseEvaluation::CloseEvaluation(const Curve& curve, Curve fine_curve, Side side)
+    : side_(side), fine_(std::move(fine_curve)), winding_(winding(fine_, side)), slope_(fine_.derivative.cwiseInverse()),
+      bend_(-fine_.second.cwiseProduct(slope_.cwiseProduct(slope_))), poles_(ComplexVector::Zero(fine_.size())) {
   const int n = curve.size(), fine = fine_.size();
-  for (int k = 0; k < fine; ++k)
+  for (int k = 0; k < fine; ++k) {
+    const ComplexVector difference = fine_.from(fine_.node(k));
     for (int j = 0; j < fine; ++j)
-      if (j != k) poles_[k] += quotient(fine_.derivative[j], fine_.position[k] - fine_.position[j]);
+      if (j != k) poles_[k] -= quotient(fine_.derivative[j], difference[j]);
+  }
   const ComplexVector unit = fourier_upsample(ComplexVector::Unit(n, 0), fine), first = fourier_derivative(unit);
   refine_ = matrix_of_map(unit, n).transpose();
   refine_derivative_ = matrix_of_map(first, n).transpose();
@@ -90,21 +100,22 @@ CloseEvaluation::CloseEvaluation(const Curve& curve, Side side, int upsampling)
 // The weights being a common factor times p_j = zeta'_j/(zeta_j - z), partial fractions leave of the double sum
 //   Sum_j w_j v_j = (1/i N) Sum_k tau_k w_k ( Sum_{j != k} p_j + 2 Sum_{j != k} zeta'_j/(zeta_k - zeta_j) )
 //                   + (1/i N) Sum_j w_j tau_alpha,j + { Sum_j w_j tau_j inside }.
-CloseEvaluation::CauchyColumns CloseEvaluation::cauchy_columns(const std::vector<Complex>& z) const {
+CloseEvaluation::CauchyColumns CloseEvaluation::cauchy_columns(const std::vector<Target>& z) const {
   const Eigen::Index n = fine_.size(), targets = static_cast<Eigen::Index>(z.size());
   const double limit = 6.0 * fine_.max_spacing();
   const Complex factor = 1.0 / (static_cast<double>(n) * imaginary_unit);
-  CauchyColumns columns{ComplexMatrix(n, targets), ComplexMatrix(n, targets), {}};
+  CauchyColumns columns{ComplexMatrix(n, targets), ComplexMatrix(n, targets), ComplexMatrix(n, targets), {}};
   ComplexVector w(n);
   for (Eigen::Index i = 0; i < targets; ++i) {
     const PoleTerms terms = pole_terms(fine_, z[i]);
+    columns.difference.col(i) = terms.difference;
     auto of_value = columns.of_value.col(i);
     if (terms.distance >= limit) {
       of_value = factor * terms.p;
-      of_value[terms.nearest] = factor * quotient(fine_.derivative[terms.nearest], fine_.position[terms.nearest] - z[i]);
+      of_value[terms.nearest] = factor * quotient(fine_.derivative[terms.nearest], terms.difference[terms.nearest]);
       continue;
     }
-    barycentric_weights(fine_, winding_, z[i], terms, w);
+    barycentric_weights(fine_, winding_, terms, w);
     // p of the nearest may be infinite; w_k times it is w of the nearest times p_k.
     of_value = factor * (w.array() * (terms.others - terms.p.array() + 2.0 * poles_.array()) +
                          w[terms.nearest] * terms.p.array()).matrix();
@@ -117,18 +128,18 @@ CloseEvaluation::CauchyColumns CloseEvaluation::cauchy_columns(const std::vector
 }
 
 // tau = eta, and tau = conj(z - zeta) eta_alpha/zeta_alpha with the product rule for its derivative.
-VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const {
+VelocityRows CloseEvaluation::velocity_rows(const std::vector<Target>& z) const {
   const double s = side_ == Side::interior ? 1.0 : -1.0;
-  auto [of_value, of_derivative, close] = cauchy_columns(z);
+  auto [of_value, of_derivative, difference, close] = cauchy_columns(z);
   Matrix direct = refine_ * of_value.real();
   const Matrix direct_close = refine_derivative_ * of_derivative.real();
   for (Eigen::Index i = 0; i < of_value.cols(); ++i)
-    of_value.col(i).array() *= (z[i] - fine_.position.array()).conjugate() * slope_.array();
+    of_value.col(i).array() *= -difference.col(i).array().conjugate() * slope_.array();
   for (std::size_t r = 0; r < close.size(); ++r) {
     const Eigen::Index i = close[r];
     direct.col(i) += direct_close.col(static_cast<Eigen::Index>(r));
     auto column = of_derivative.col(static_cast<Eigen::Index>(r)).array();
-    const auto arm = (z[i] - fine_.position.array()).conjugate();
+    const auto arm = -difference.col(i).array().conjugate();
     of_value.col(i).array() += column * (arm * bend_.array() - fine_.derivative.array().conjugate() * slope_.array());
     column *= arm * slope_.array();
   }
@@ -137,6 +148,25 @@ VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const
   for (std::size_t r = 0; r < close.size(); ++r)
     conjugate.col(close[r]) += conjugate_close.col(static_cast<Eigen::Index>(r));
   return {-s * direct.transpose(), (0.5 * s) * conjugate.adjoint()};
+}
+
+VelocityRows CloseEvaluation::velocity_rows(const std::vector<Complex>& z) const { return velocity_rows(targets(z)); }
+
+VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Target>& z) {
+  const double s = side == Side::interior ? 1.0 : -1.0;
+  const auto n = static_cast<Eigen::Index>(curve.size()), count = static_cast<Eigen::Index>(z.size());
+  VelocityRows rows{Matrix(count, n), ComplexMatrix(count, n)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const ComplexVector difference = curve.from(z[i]);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Complex normal = -imaginary_unit * (s * curve.weight[k] / (2.0 * pi)) * curve.tangent[k];
+      const Complex r = -difference[k];
+      const double over = 1.0 / std::norm(r), f = dot(r, normal) * over;
+      rows.direct(i, k) = f;
+      rows.conjugate(i, k) = f * over * (r * r);
+    }
+  }
+  return rows;
 }
 
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z) {

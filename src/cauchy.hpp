@@ -33,9 +33,12 @@ class CloseEvaluation {
   // 3 beyond, the accuracy depends on the resolution of the density alone. Cost O(upsampling^2 N^2), memory
   // O(upsampling N^2).
   CloseEvaluation(const Curve& curve, Side side, int upsampling);
+  // `fine`: the same curve at a multiple of its nodes.
+  CloseEvaluation(const Curve& curve, Curve fine, Side side);
 
   // Rows of the velocity at targets z (frame of the curve) in the fluid or on the curve. Cost O(upsampling N^2) per
   // target.
+  VelocityRows velocity_rows(const std::vector<Target>& z) const;
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
 
  private:
@@ -43,9 +46,10 @@ class CloseEvaluation {
   // each z. of_derivative has one for each z that is so close that the derivative is needed; `close` lists these.
   struct CauchyColumns {
     ComplexMatrix of_value, of_derivative;
+    ComplexMatrix difference;  // zeta_k - z
     std::vector<Eigen::Index> close;
   };
-  CauchyColumns cauchy_columns(const std::vector<Complex>& z) const;
+  CauchyColumns cauchy_columns(const std::vector<Target>& z) const;
 
   Side side_;
   Curve fine_;
@@ -57,6 +61,7 @@ class CloseEvaluation {
 };
 
 // Rows of the plain trapezoid rule, which the fast sums compute, at targets z off the nodes.
+VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Target>& z);
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z);
 // The contribution of some of the nodes, a column for each.
 VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Complex>& z, const std::vector<int>& nodes);
@@ -64,22 +69,25 @@ VelocityRows trapezoid_rows(const Curve& curve, Side side, const std::vector<Com
 // The curve with `upsampling` times as many nodes. They include its own.
 Curve refined(const Curve& curve, int upsampling);
 
+std::vector<Target> targets(const std::vector<Complex>& z);
+
 // Terms zeta'_k/(zeta_k - z) of the trapezoid rule for Cauchy integrals at z.
 struct PoleTerms {
-  ComplexVector p;       // the terms, with 0 for the nearest node, whose term may be infinite
-  Complex others;        // sum of p
-  Eigen::Index nearest;  // the nearest node
-  double distance;       // from z to the nearest node
+  ComplexVector difference;  // zeta_k - z
+  ComplexVector p;           // the terms, with 0 for the nearest node, whose term may be infinite
+  Complex others;            // sum of p
+  Eigen::Index nearest;      // the nearest node
+  double distance;           // from z to the nearest node
 };
-PoleTerms pole_terms(const Curve& curve, Complex z);
+PoleTerms pole_terms(const Curve& curve, const Target& z);
 
 // Sum_k zeta'_k/zeta_k on the exterior side, 0 on the interior.
 Complex winding(const Curve& curve, Side side);
 
-// Barycentric weights of f(z) = Sum_k weight_k f_k, for a target z in the fluid or on the curve and the boundary values
-// f_k of a function f. The function is analytic in the fluid and, on the exterior side, vanishes at infinity. The
+// Barycentric weights of f(z) = Sum_k weight_k f_k, for the z of the terms, in the fluid or on the curve, and the boundary
+// values f_k of a function f. The function is analytic in the fluid and, on the exterior side, vanishes at infinity. The
 // origin must lie inside the curve. Cost O(N).
-void barycentric_weights(const Curve& curve, Complex winding, Complex z, const PoleTerms& terms,
+void barycentric_weights(const Curve& curve, Complex winding, const PoleTerms& terms,
                          Eigen::Ref<ComplexVector> weight);
 
 }  // namespace stokes

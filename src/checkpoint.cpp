@@ -119,8 +119,9 @@ void write_density(Writer& writer, const StepperMemory::Density& density) {
   writer.line("density", density.path, density.nodes.size());
   for (const Discretisation& nodes : density.nodes) {
     std::vector<double> clusters;
-    for (const NodeCluster& cluster : nodes.clusters) clusters.insert(clusters.end(), {cluster.alpha, cluster.density});
-    writer.line("points", nodes.points);
+    for (const NodeCluster& c : nodes.clusters)
+      clusters.insert(clusters.end(), {c.alpha, c.width, static_cast<double>(c.points)});
+    writer.line("points", nodes.points, nodes.upsampling);
     writer.line("clusters", clusters);
   }
   writer.line("values", density.value);
@@ -134,8 +135,10 @@ StepperMemory::Density read_density(Reader& reader) {
   for (Discretisation& nodes : density.nodes) {
     reader.begin("points");
     nodes.points = reader.integer<int>();
+    nodes.upsampling = reader.integer<int>();
     const std::vector<double> clusters = reader.numbers("clusters");
-    for (std::size_t k = 0; k + 1 < clusters.size(); k += 2) nodes.clusters.push_back({clusters[k], clusters[k + 1]});
+    for (std::size_t k = 0; k + 2 < clusters.size(); k += 3)
+      nodes.clusters.push_back({clusters[k], clusters[k + 1], static_cast<int>(clusters[k + 2])});
   }
   density.value = reader.complex_numbers("values");
   return density;
@@ -145,7 +148,6 @@ void write_memory(Writer& writer, const StepperMemory& memory) {
   writer.line("memory", memory.path, memory.background.size(), memory.contacts.size());
   for (const StepperMemory::Density& density : memory.background) write_density(writer, density);
   write_density(writer, memory.total);
-  writer.line("fineness", memory.fineness, memory.steps_as_fine, memory.coarsened ? 1 : 0);
   writer.line("known", memory.known.contacts.size(), memory.answers.size());
   for (const KnownContacts::Contact& c : memory.known.contacts) writer.line("contact", c.a, c.b, c.region);
   writer.line("rates", std::vector<double>(memory.known.rates.reshaped().begin(), memory.known.rates.reshaped().end()));
@@ -166,10 +168,6 @@ StepperMemory read_memory(Reader& reader) {
   const auto contacts = reader.integer<std::size_t>();
   for (StepperMemory::Density& density : memory.background) density = read_density(reader);
   memory.total = read_density(reader);
-  reader.begin("fineness");
-  memory.fineness = reader.number();
-  memory.steps_as_fine = reader.integer<int>();
-  memory.coarsened = reader.number() != 0.0;
   reader.begin("known");
   memory.known.contacts.resize(reader.integer<std::size_t>());
   memory.answers.resize(reader.integer<std::size_t>());

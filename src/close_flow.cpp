@@ -21,9 +21,10 @@ GoursatTable cauchy_limits(const Curve& curve, Side side, const GoursatTable& ta
   for (int f = 0; f < 5; ++f) limits.row(f) = fourier_derivative(tau.row(f).transpose()).transpose();
   for (Eigen::Index j = 0; j < n; ++j) {
     GoursatVector sum = limits.col(j);
+    const ComplexVector difference = curve.from(curve.node(j));
     for (Eigen::Index k = 0; k < n; ++k) {
       if (k == j) continue;
-      sum += quotient(curve.derivative[k], curve.position[k] - curve.position[j]) * (tau.col(k) - tau.col(j));
+      sum += quotient(curve.derivative[k], difference[k]) * (tau.col(k) - tau.col(j));
     }
     limits.col(j) = factor * sum;
     if (side == Side::interior) limits.col(j) += tau.col(j);
@@ -38,14 +39,17 @@ PointFlow flow_from(Complex z, const GoursatVector& g) {
 }  // namespace
 
 CloseFlow::CloseFlow(const Curve& curve, Side side, int upsampling, const ComplexVector& density)
-    : upsampling_(upsampling), fine_(refined(curve, upsampling)), winding_(winding(fine_, side)) {
+    : CloseFlow(refined(curve, upsampling), side, density) {}
+
+CloseFlow::CloseFlow(Curve fine, Side side, const ComplexVector& density)
+    : fine_(std::move(fine)), winding_(winding(fine_, side)) {
   const int n = fine_.size();
   const ComplexVector first = fourier_derivative(density), along = fourier_upsample(first, n);
   const auto derivative = fine_.derivative.array();
   const Eigen::ArrayXcd eta = fourier_upsample(density, n), slope = along.array() / derivative;
   // eta'' = (eta_alpha,alpha - zeta_alpha,alpha eta') / zeta_alpha^2
   const Eigen::ArrayXcd bend = (fourier_upsample(fourier_derivative(first), n).array() -
-                                fourier_derivative(fine_.derivative).array() * slope) /
+                                fine_.second.array() * slope) /
                                (derivative * derivative);
   const Eigen::ArrayXcd conjugate = fine_.position.array().conjugate();
   const Eigen::ArrayXcd conjugate_slope = (along.array().conjugate() + derivative.conjugate() * slope) / derivative;
@@ -57,11 +61,12 @@ CloseFlow::CloseFlow(const Curve& curve, Side side, int upsampling, const Comple
   integrands.row(3) = half * (eta.conjugate() + conjugate * slope);
   integrands.row(4) = half * (conjugate_slope + conjugate * bend);
   boundary_ = cauchy_limits(fine_, side, integrands);
+  upsampling_ = n / static_cast<int>(density.size());
 }
 
 PointFlow CloseFlow::at(Complex z) const {
   ComplexVector weight(fine_.size());
-  barycentric_weights(fine_, winding_, z, pole_terms(fine_, z), weight);
+  barycentric_weights(fine_, winding_, pole_terms(fine_, {z}), weight);
   return flow_from(z, boundary_ * weight);
 }
 

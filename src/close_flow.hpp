@@ -24,6 +24,8 @@ class CloseFlow {
   // with b/a = tanh(mu) the error is round-off once (upsampling - 1) N mu is about 66, see flow_upsampling(). Cost
   // O(upsampling^2 N^2).
   CloseFlow(const Curve& curve, Side side, int upsampling, const ComplexVector& density);
+  // `fine`: the curve at a multiple of the density's nodes.
+  CloseFlow(Curve fine, Side side, const ComplexVector& density);
 
   // The flow at z (frame of the curve) in the fluid, at any distance, or on the curve. Cost O(upsampling N).
   PointFlow at(Complex z) const;

@@ -4,14 +4,16 @@
 
 namespace stokes {
 
-Curve::Curve(ComplexVector position_, ComplexVector derivative_, const ComplexVector& second_derivative)
-    : position(std::move(position_)), derivative(std::move(derivative_)) {
+Curve::Curve(ComplexVector position_, ComplexVector derivative_, ComplexVector second_derivative,
+             CurveClusters clusters_)
+    : position(std::move(position_)), derivative(std::move(derivative_)), second(std::move(second_derivative)),
+      clusters(std::move(clusters_)) {
   const Vector speed = derivative.cwiseAbs();
   tangent = derivative.cwiseQuotient(speed);
   weight = speed * (2.0 * pi / size());
   curvature.resize(size());
   for (int k = 0; k < size(); ++k)
-    curvature[k] = cross(derivative[k], second_derivative[k]) / (speed[k] * speed[k] * speed[k]);
+    curvature[k] = cross(derivative[k], second[k]) / (speed[k] * speed[k] * speed[k]);
 }
 
 Curve Curve::through(const ComplexVector& nodes) {
@@ -23,6 +25,20 @@ Curve Curve::through(const ComplexVector& nodes) {
     throw InputError("the nodes of a curve must run counter-clockwise: the enclosed area is " +
                      std::to_string(curve.area()) + "; reverse their order");
   return curve;
+}
+
+Target Curve::node(Eigen::Index k) const {
+  if (clusters.nearest.empty()) return {position[k]};
+  return {position[k], clusters.nearest[k], clusters.offset[k]};
+}
+
+ComplexVector Curve::from(const Target& z) const {
+  ComplexVector difference = position.array() - z.position;
+  if (z.cluster < 0) return difference;
+  const Complex axis = clusters.tangent[z.cluster];
+  for (Eigen::Index k = 0; k < size(); ++k)
+    if (clusters.nearest[k] == z.cluster) difference[k] = axis * (clusters.offset[k] - z.offset);
+  return difference;
 }
 
 double Curve::area() const {

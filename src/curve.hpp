@@ -1,14 +1,31 @@
 // Smooth closed curves sampled at N equal steps of their parameter, counter-clockwise.
 #pragma once
 
+#include <vector>
+
 #include "base.hpp"
 
 namespace stokes {
 
+// A point near a curve. With a cluster of the curve, it is also known by its offset from the cluster's point, in the
+// frame whose first axis is the tangent there: its difference from nodes of the cluster then keeps its relative accuracy.
+struct Target {
+  Complex position;
+  int cluster = -1;
+  Complex offset{};
+};
+
+// The nearest cluster of each node (node_map.hpp), and its offset from the cluster's point; empty without clusters.
+struct CurveClusters {
+  std::vector<Complex> tangent;  // of each cluster
+  std::vector<int> nearest;
+  std::vector<Complex> offset;
+};
+
 class Curve {
  public:
   // From nodes zeta(alpha_k) and exact derivatives with respect to alpha, each of length N.
-  Curve(ComplexVector position, ComplexVector derivative, const ComplexVector& second_derivative);
+  Curve(ComplexVector position, ComplexVector derivative, ComplexVector second_derivative, CurveClusters clusters = {});
 
   // From the nodes alone, with spectral derivatives. N even, at least 8, counter-clockwise; otherwise
   // InputError.
@@ -20,11 +37,17 @@ class Curve {
   double max_spacing() const { return weight.maxCoeff(); }
   Complex centroid() const;    // of the arclength measure
 
+  Target node(Eigen::Index k) const;
+  // zeta_k - z for every node.
+  ComplexVector from(const Target& z) const;
+
   ComplexVector position;      // zeta
   ComplexVector derivative;    // zeta'
+  ComplexVector second;        // zeta''
   ComplexVector tangent;       // t = zeta' / |zeta'|
   Vector weight;               // trapezoid weights |zeta'| 2 pi / N of the arclength
   Vector curvature;            // positive where a counter-clockwise curve is convex
+  CurveClusters clusters;
 };
 
 }  // namespace stokes

@@ -1,5 +1,8 @@
 #include "direct_sum.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "pack.hpp"
 #include "threads.hpp"
 
@@ -12,18 +15,19 @@ constexpr int block = 2 * lanes;  // targets that share one division
 struct SourceArrays {
   const double *x, *y, *nx, *ny, *ex, *ey;  // ex, ey: density / pi
   int count;
+  double least;  // of |r|^4, positive
 };
 
 // Adds the sum over all sources to two packs of targets.
 void sum_block(const double* tx, const double* ty, const SourceArrays& s, double* ux, double* uy) {
   const Pack x0 = load(tx), x1 = load(tx + lanes), y0 = load(ty), y1 = load(ty + lanes);
-  const Pack one = x0 * 0.0 + 1.0;
+  const Pack least = x0 * 0.0 + s.least;
   Pack ux0{}, ux1{}, uy0{}, uy1{};
   for (int j = 0; j < s.count; ++j) {
     const Pack rx0 = x0 - s.x[j], rx1 = x1 - s.x[j], ry0 = y0 - s.y[j], ry1 = y1 - s.y[j];
     const Pack rr0 = rx0 * rx0 + ry0 * ry0, rr1 = rx1 * rx1 + ry1 * ry1;
     // A coincident source has r = 0, so any finite factor removes it.
-    const Pack q0 = rr0 == 0.0 ? one : rr0 * rr0, q1 = rr1 == 0.0 ? one : rr1 * rr1;
+    const Pack p0 = rr0 * rr0, p1 = rr1 * rr1, q0 = p0 < least ? least : p0, q1 = p1 < least ? least : p1;
     const Pack both = 1.0 / (q0 * q1);
     const Pack f0 = (rx0 * s.nx[j] + ry0 * s.ny[j]) * (rx0 * s.ex[j] + ry0 * s.ey[j]) * (both * q1);
     const Pack f1 = (rx1 * s.nx[j] + ry1 * s.ny[j]) * (rx1 * s.ex[j] + ry1 * s.ey[j]) * (both * q0);
@@ -38,12 +42,13 @@ void sum_block(const double* tx, const double* ty, const SourceArrays& s, double
 
 void double_layer_velocity(const PointArray& targets, const PointArray& sources,
                            const PointArray& weighted_normal, const ComplexVector& density,
-                           ComplexVector& velocity) {
+                           ComplexVector& velocity, double softening) {
   const int count = targets.size(), source_count = sources.size();
   std::vector<double> ex(source_count), ey(source_count);
   for (int j = 0; j < source_count; ++j) ex[j] = density[j].real() / pi, ey[j] = density[j].imag() / pi;
   const SourceArrays arrays{sources.x.data(), sources.y.data(), weighted_normal.x.data(),
-                            weighted_normal.y.data(), ex.data(), ey.data(), source_count};
+                            weighted_normal.y.data(), ex.data(), ey.data(), source_count,
+                            std::max(std::pow(softening, 4), 1e-148)};
   velocity.resize(count);
 
   const auto sum_targets = [&](int first, int last) {

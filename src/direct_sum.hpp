@@ -21,8 +21,10 @@ struct PointArray {
 // where weighted_normal_j = w_j n_j. Sources that coincide with the target are left out (the diagonal
 // limit of the trapezoid rule is the caller's). Vectorised over targets and threaded; the result does
 // not depend on the number of threads.
+// `softening` >= 0: a length below which |r| in the denominator is replaced by it. What close points then lack is added
+// by whoever knows their difference better than the coordinates do.
 void double_layer_velocity(const PointArray& targets, const PointArray& sources,
                            const PointArray& weighted_normal, const ComplexVector& density,
-                           ComplexVector& velocity);
+                           ComplexVector& velocity, double softening = 0.0);
 
 }  // namespace stokes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <eigen3/Eigen/LU>
 
@@ -15,13 +16,16 @@ namespace {
 double aspect_ratio(const Shape& shape) { return shape.circumradius() / shape.inradius(); }
 
 // Factor by which the close evaluation oversamples; the bandwidth on an ellipse grows with its aspect.
-int upsampling_for(const Shape& shape) { return aspect_ratio(shape) <= 3.0 ? 2 : 3; }
+int upsampling_for(const Shape& shape, const Discretisation& nodes) {
+  if (nodes.upsampling > 0) return nodes.upsampling;
+  return aspect_ratio(shape) <= 3.0 ? 2 : 3;
+}
 
 std::variant<CloseEvaluation, CircleEvaluation, InterpolationEvaluation> close_evaluation(
     const Shape& shape, const Discretisation& nodes, const Curve& curve, Side side, NearSingular near_singular) {
   if (near_singular == NearSingular::interpolation) return InterpolationEvaluation(curve, side);
   if (shape.a == shape.b && nodes.clusters.empty()) return CircleEvaluation(shape.a, nodes.points, side);
-  return CloseEvaluation(curve, side, upsampling_for(shape));
+  return CloseEvaluation(curve, shape.curve(nodes, upsampling_for(shape, nodes)), side);
 }
 
 // B: rigid motions at the nodes, 2N x 3.
@@ -87,8 +91,9 @@ DiscreteShape::DiscreteShape(const Shape& shape_, const Discretisation& nodes_, 
 Matrix DiscreteShape::own_block() const {
   const int n = size();
   const Matrix B = rigid_motions(curve);
-  const std::vector<Complex> positions(curve.position.begin(), curve.position.end());
-  VelocityRows self = trapezoid_rows(curve, side(), positions);
+  std::vector<Target> own;
+  for (int k = 0; k < n; ++k) own.push_back(curve.node(k));
+  VelocityRows self = trapezoid_rows(curve, side(), own);
   for (int k = 0; k < n; ++k) {  // t (t . eta) = (eta + t^2 conj(eta)) / 2
     self.direct(k, k) = 0.5 * diagonal[k] - 0.5;
     self.conjugate(k, k) = 0.5 * diagonal[k] * curve.tangent[k] * curve.tangent[k];
@@ -117,8 +122,11 @@ Matrix DiscreteShape::own_block() const {
   return block;
 }
 
-VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z) const {
-  return std::visit([&z](const auto& close) { return close.velocity_rows(z); }, close_);
+VelocityRows DiscreteShape::close_rows(const std::vector<Target>& z) const {
+  if (const auto* cauchy = std::get_if<CloseEvaluation>(&close_)) return cauchy->velocity_rows(z);
+  std::vector<Complex> positions;
+  for (const Target& target : z) positions.push_back(target.position);
+  return std::visit([&positions](const auto& close) { return close.velocity_rows(positions); }, close_);
 }
 
 std::vector<PointFlow> DiscreteShape::close_flow(const ComplexVector& density, const std::vector<Complex>& z) const {
@@ -129,7 +137,7 @@ std::vector<PointFlow> DiscreteShape::close_flow(const ComplexVector& density, c
   if (const auto* interpolation = std::get_if<InterpolationEvaluation>(&close_))
     evaluate(interpolation->flow(density));
   else
-    evaluate(CloseFlow(curve, side(), flow_upsampling(aspect_ratio(shape), size()), density));
+    evaluate(CloseFlow(shape.curve(nodes, flow_upsampling(aspect_ratio(shape), size())), side(), density));
   return result;
 }
 
@@ -149,6 +157,12 @@ double DiscreteShape::flux_part(const Complex* density) const {
   double flux = 0.0;
   for (int k = 0; k < size(); ++k) flux += dot(weighted_normal(k), density[k]);
   return -0.5 / curve.length() * flux;
+}
+
+std::vector<int> all_nodes(const PlacedShape& boundary) {
+  std::vector<int> nodes(boundary.size());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  return nodes;
 }
 
 BoundarySet::BoundarySet(const std::vector<PlacedShape>& boundaries, std::vector<int> members_)
@@ -186,33 +200,16 @@ VelocityRows DiscreteShape::close_rows(const std::vector<Complex>& z, const std:
   return std::get<CircleEvaluation>(close_).velocity_rows(z, some);
 }
 
-namespace {
-
-VelocityRows difference(VelocityRows rows, const VelocityRows& plain) {
-  rows.direct -= plain.direct;
-  rows.conjugate -= plain.conjugate;
-  return rows;
-}
-
-}  // namespace
-
-VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z) {
-  return difference(shape.close_rows(z), trapezoid_rows(shape.curve, shape.side(), z));
-}
-
-VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z, const std::vector<int>& nodes) {
-  return difference(shape.close_rows(z, nodes), trapezoid_rows(shape.curve, shape.side(), z, nodes));
-}
-
 // The series of the old nodes, summed at the new ones by Horner's rule in e^{i s}.
 ComplexVector move_density(const ComplexVector& density, const Discretisation& from, const Discretisation& to) {
   if (from == to) return density;
   const Eigen::Index n = density.size(), half = n / 2;
   const ComplexVector c = fourier_coefficients(density);
-  const std::vector<double> alpha = Shape::parameters(to);
-  ComplexVector moved(static_cast<Eigen::Index>(alpha.size()));
-  for (std::size_t j = 0; j < alpha.size(); ++j) {
-    const double s = Shape::position_of(alpha[j], from);
+  const NodeMap old(from);
+  const std::vector<MappedNode> wanted = NodeMap(to).at_equal_steps(to.size());
+  ComplexVector moved(static_cast<Eigen::Index>(wanted.size()));
+  for (std::size_t j = 0; j < wanted.size(); ++j) {
+    const double s = old.position(wanted[j].alpha);
     const Complex e = std::polar(1.0, s), back = std::conj(e);
     Complex up = 0.5 * c[half], down = 0.5 * c[half];
     for (Eigen::Index k = half - 1; k >= 1; --k) up = up * e + c[k], down = down * back + c[n - k];
@@ -221,11 +218,23 @@ ComplexVector move_density(const ComplexVector& density, const Discretisation& f
   return moved;
 }
 
+ComplexVector move_densities(const ComplexVector& density, const std::vector<Discretisation>& from,
+                             const std::vector<Discretisation>& to) {
+  Eigen::Index size = 0, old = 0, now = 0;
+  for (const Discretisation& d : to) size += d.size();
+  ComplexVector result(size);
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    result.segment(now, to[i].size()) = move_density(density.segment(old, from[i].size()), from[i], to[i]);
+    old += from[i].size(), now += to[i].size();
+  }
+  return result;
+}
+
 std::shared_ptr<const DiscreteShape> ShapeCache::get(const Shape& shape, const Discretisation& nodes,
                                                      BoundaryKind kind, double log_length) {
   const auto make = [&] { return std::make_shared<const DiscreteShape>(shape, nodes, kind, log_length, near_singular_); };
   if (!nodes.clusters.empty()) return make();
-  auto& entry = shapes_[{shape.a, shape.b, nodes.points, kind, log_length}];
+  auto& entry = shapes_[{shape.a, shape.b, nodes.points, nodes.upsampling, kind, log_length}];
   if (!entry) entry = make();
   return entry;
 }

@@ -79,7 +79,7 @@ class DiscreteShape {
   double flux_part(const Complex* density) const;
 
   // Rows of the double layer's velocity at points z (body frame) in the fluid, at any distance.
-  VelocityRows close_rows(const std::vector<Complex>& z) const;
+  VelocityRows close_rows(const std::vector<Target>& z) const;
   // The same for some of the nodes of a circle that has_series().
   VelocityRows close_rows(const std::vector<Complex>& z, const std::vector<int>& nodes) const;
   // A circle whose rows are long: better a CircleFlow for each density.
@@ -122,6 +122,9 @@ struct PlacedShape {
   Complex local(Complex x) const { return std::conj(axis) * (x - pose.centre); }
 };
 
+// The numbers of its nodes.
+std::vector<int> all_nodes(const PlacedShape& boundary);
+
 // Some of a suspension's boundaries, taken as if there were no others.
 struct BoundarySet {
   std::vector<int> members;          // increasing
@@ -142,12 +145,12 @@ double near_distance_of_gradient(const DiscreteShape& shape);
 // Rows of points z (frame of the shape) nearer than that.
 std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z, double distance);
 
-// What the close evaluation adds to the plain trapezoid rule at points z; on a circle that has_series() at some nodes.
-VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z);
-VelocityRows near_correction(const DiscreteShape& shape, const std::vector<Complex>& z, const std::vector<int>& nodes);
-
-// A density moved from one set of nodes to another of the same shape by trigonometric interpolation.
+// A density moved from one set of nodes to another of the same shape by trigonometric interpolation in s.
 ComplexVector move_density(const ComplexVector& density, const Discretisation& from, const Discretisation& to);
+
+// The same for the densities of several boundaries, one after the other.
+ComplexVector move_densities(const ComplexVector& density, const std::vector<Discretisation>& from,
+                             const std::vector<Discretisation>& to);
 
 // The shapes in use; each distinct one with nodes at equal steps is discretised and factorised once. Nodes with
 // clusters belong to one configuration and are made afresh.
@@ -162,7 +165,7 @@ class ShapeCache {
   NearSingular near_singular() const { return near_singular_; }
 
  private:
-  using Key = std::tuple<double, double, int, BoundaryKind, double>;
+  using Key = std::tuple<double, double, int, int, BoundaryKind, double>;
 
   NearSingular near_singular_;
   std::map<Key, std::shared_ptr<const DiscreteShape>> shapes_;

@@ -45,7 +45,7 @@ GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, d
   }
   ShapeCache shapes(options.near_singular);
   const std::vector<Discretisation> nodes = options.refine == Refine::near
-                                                ? refined_nodes(bodies, options.points_per_body, 1.0)
+                                                ? refined_nodes(bodies, options.points_per_body, near_tolerance)
                                                 : equal_nodes(bodies, options.points_per_body);
   const StokesSystem system(bodies, nodes, shapes, options.stokes);
   const BackgroundFlow flow{options.flow.kind, driving * options.flow.rate, driving};

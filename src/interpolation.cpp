@@ -47,7 +47,7 @@ Seven places_on_normal(NearRule rule, double t, double origin) {
 // Rows of -1/2 I + D at the nodes: the trapezoid rule with the diagonal limit -s kappa/(2 pi) t (t . eta).
 VelocityRows boundary_limit(const Curve& curve, Side side) {
   const double s = side == Side::interior ? 1.0 : -1.0;
-  VelocityRows rows = trapezoid_rows(curve, side, {curve.position.begin(), curve.position.end()});
+  VelocityRows rows = trapezoid_rows(curve, side, std::vector<Complex>(curve.position.begin(), curve.position.end()));
   for (int k = 0; k < curve.size(); ++k) {  // t (t . eta) = (eta + t^2 conj(eta)) / 2
     const double diagonal = -s * curve.curvature[k] * curve.weight[k] / (4.0 * pi);
     rows.direct(k, k) = diagonal - 0.5;

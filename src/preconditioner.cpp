@@ -4,7 +4,6 @@
 #include <cmath>
 #include <eigen3/Eigen/Eigenvalues>
 #include <eigen3/Eigen/LU>
-#include <numeric>
 #include <tuple>
 
 #include "threads.hpp"
@@ -19,12 +18,6 @@ constexpr double large_circle = 4.0;
 // Of the flow that passes between two boundaries, parts so small beside the density that makes them are left out. Were they
 // larger, they would show where a symmetry of the bodies holds the number of iterations down.
 constexpr double negligible = 1e-3;
-
-std::vector<int> all_nodes(const PlacedShape& b) {
-  std::vector<int> nodes(b.size());
-  std::iota(nodes.begin(), nodes.end(), 0);
-  return nodes;
-}
 
 // Within a body's length of its circumscribed circle.
 std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) {
@@ -68,14 +61,65 @@ Coupling coupling(const Matrix& C) {
   return {C.cast<float>() * Q, std::move(Q)};
 }
 
+// Connected by relative gaps below `tight`, the closest first as far as the limits allow. Pairs that these leave between
+// groups make one of their own. Members increase.
+std::vector<std::vector<int>> joined(std::vector<ClosePair> pairs, const std::vector<PlacedShape>& boundaries) {
+  constexpr double tight = 1e-3;
+  constexpr std::size_t most_members = 8;
+  constexpr int most_unknowns = 2000;
+  std::erase_if(pairs, [](const ClosePair& p) { return !(p.relative_gap < tight); });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const ClosePair& p, const ClosePair& q) { return p.relative_gap < q.relative_gap; });
+  std::vector<std::vector<int>> groups;
+  const auto group_of = [&groups](int boundary) {
+    return std::find_if(groups.begin(), groups.end(),
+                        [boundary](const auto& g) { return std::binary_search(g.begin(), g.end(), boundary); });
+  };
+  const auto fits = [&boundaries](const std::vector<int>& members) {
+    int unknowns = 0;
+    for (const int i : members) unknowns += 2 * boundaries[i].size();
+    return members.size() <= most_members && unknowns <= most_unknowns;
+  };
+  std::vector<std::vector<int>> between;
+  for (const ClosePair& p : pairs) {
+    const auto a = group_of(p.i), b = group_of(p.j);
+    if (a != groups.end() && a == b) continue;
+    std::vector<int> members = a != groups.end() ? *a : std::vector{p.i};
+    if (b != groups.end())
+      members.insert(members.end(), b->begin(), b->end());
+    else
+      members.push_back(p.j);
+    std::sort(members.begin(), members.end());
+    if (fits(members)) {
+      std::erase_if(groups, [&p](const std::vector<int>& g) {
+        return std::binary_search(g.begin(), g.end(), p.i) || std::binary_search(g.begin(), g.end(), p.j);
+      });
+      groups.push_back(std::move(members));
+    } else if (std::vector<int> both{std::min(p.i, p.j), std::max(p.i, p.j)}; fits(both)) {
+      between.push_back(std::move(both));
+    }
+  }
+  groups.insert(groups.end(), between.begin(), between.end());
+  return groups;
+}
+
 }  // namespace
 
 Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
-                               const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block)
+                               const std::vector<ClosePair>& pairs, const BlockFunction& block)
     : kind_(kind), boundaries_(boundaries) {
   if (kind != PreconditionerKind::pair) return;
-  pairs_.resize(pairs.size());
-  parallel_for(static_cast<long>(pairs.size()), [&](long n) { pairs_[n] = prepared(pairs[n], block); });
+  const std::vector<std::vector<int>> groups = joined(pairs, boundaries);
+  groups_.resize(groups.size());
+  parallel_for(static_cast<long>(groups.size()), [&](long n) { groups_[n] = factorised(groups[n], block); });
+  std::vector<std::pair<int, int>> others;
+  for (const ClosePair& p : pairs)
+    if (std::none_of(groups.begin(), groups.end(), [&p](const std::vector<int>& g) {
+          return std::binary_search(g.begin(), g.end(), p.i) && std::binary_search(g.begin(), g.end(), p.j);
+        }))
+      others.push_back({p.i, p.j});
+  pairs_.resize(others.size());
+  parallel_for(static_cast<long>(others.size()), [&](long n) { pairs_[n] = prepared(others[n], block); });
   std::erase_if(pairs_, [](const Pair& p) { return p.part.empty(); });
   pairs_of_.resize(boundaries.size());
   for (std::size_t n = 0; n < pairs_.size(); ++n)
@@ -107,6 +151,34 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
   return p;
 }
 
+Preconditioner::Group Preconditioner::factorised(std::vector<int> members, const BlockFunction& block) const {
+  Group g;
+  g.members = std::move(members);
+  Eigen::Index size = 0;
+  for (const int i : g.members) g.first.push_back(size), size += 2 * boundaries_[i].size();
+  g.first.push_back(size);
+  Matrix system = Matrix::Identity(size, size);
+  for (std::size_t a = 0; a < g.members.size(); ++a)
+    for (std::size_t b = 0; b < g.members.size(); ++b) {
+      if (a == b) continue;
+      const int i = g.members[a], j = g.members[b];
+      system.block(g.first[a], g.first[b], g.first[a + 1] - g.first[a], g.first[b + 1] - g.first[b]) =
+          boundaries_[i].shape->solve_own(block(i, all_nodes(boundaries_[i]), j, all_nodes(boundaries_[j])));
+    }
+  g.factors.compute(system);
+  return g;
+}
+
+// What solving a group together adds to the solutions `own` of its members by themselves; empty outside the set.
+Vector Preconditioner::change(const Group& g, const BoundarySet& set, const Vector& own) const {
+  if (!std::all_of(g.members.begin(), g.members.end(), [&set](int i) { return set.has(i); })) return {};
+  Vector alone(g.first.back());
+  for (std::size_t a = 0; a < g.members.size(); ++a)
+    alone.segment(g.first[a], g.first[a + 1] - g.first[a]) =
+        own.segment(2 * set.first[g.members[a]], g.first[a + 1] - g.first[a]);
+  return g.factors.solve(alone) - alone;
+}
+
 void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out) const {
   if (kind_ == PreconditionerKind::none) {
     out = in;
@@ -119,6 +191,12 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
     own.segment(first, count) = boundaries_[i].shape->solve_own(in.segment(first, count));
   });
   out = own;
+  for (const Group& g : groups_) {
+    const Vector more = change(g, set, own);
+    for (std::size_t a = 0; a < g.members.size() && more.size() > 0; ++a)
+      out.segment(2 * set.first[g.members[a]], g.first[a + 1] - g.first[a]) +=
+          more.segment(g.first[a], g.first[a + 1] - g.first[a]);
+  }
   if (pairs_.empty()) return;
   std::vector<Change> changes(pairs_.size());
   parallel_for_large(static_cast<long>(pairs_.size()), set.size(), [&](long n) {

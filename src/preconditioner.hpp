@@ -1,6 +1,7 @@
 // Right preconditioners for the equations of a suspension.
 #pragma once
 
+#include <eigen3/Eigen/LU>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -12,7 +13,14 @@ namespace stokes {
 enum class PreconditionerKind {
   none,
   block,  // D^-1: each boundary's own block, by the inverse that its shape carries
-  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1): their 2 x 2 block systems to 1e-3
+  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1): their 2 x 2 block systems to 1e-3. Where gaps are
+          // smallest, the same for groups of boundaries, exactly
+};
+
+// Two boundaries beside each other, the gap between them in units of its radius of curvature.
+struct ClosePair {
+  int i, j;
+  double relative_gap;
 };
 
 class Preconditioner {
@@ -21,14 +29,15 @@ class Preconditioner {
   using BlockFunction =
       std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
-  // `pairs`: the close pairs (i, j) of boundaries, for PreconditionerKind::pair. Of a large circle only the nodes beside
+  // `pairs`: the close pairs of boundaries, for PreconditionerKind::pair. Those below a relative gap of 1e-3 are joined to
+  // groups, the closest first, of up to 8 boundaries and 2000 unknowns, each with a dense factorisation. Of a large circle only the nodes beside
   // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), N_i being the smaller number of nodes and r that of
   // fields that pass; without the second term where j is a circle.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
-                 const std::vector<std::pair<int, int>>& pairs, const BlockFunction& block);
+                 const std::vector<ClosePair>& pairs, const BlockFunction& block);
 
   // out = M in, densities of a set of boundaries in their frames: pairs with both members in it count. Independent of
-  // the number of threads.
+  // the number of threads. Groups count where all of their members are in the set.
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:
@@ -45,13 +54,23 @@ class Preconditioner {
     Eigen::VectorXf of_i, of_j;
   };
 
+  // The condition of the equations grows like gap^-1.5: factors in double precision, of 1 + D^-1 C.
+  struct Group {
+    std::vector<int> members;
+    std::vector<Eigen::Index> first;  // of each member's reals; the last: of all
+    Eigen::PartialPivLU<Matrix> factors;
+  };
+
   Pair prepared(std::pair<int, int> members, const BlockFunction& block) const;
+  Group factorised(std::vector<int> members, const BlockFunction& block) const;
   Change change(const Pair& pair, const BoundarySet& set, const Vector& own) const;
+  Vector change(const Group& group, const BoundarySet& set, const Vector& own) const;
 
   PreconditionerKind kind_;
   const std::vector<PlacedShape>& boundaries_;
   std::vector<Pair> pairs_;
   std::vector<std::vector<int>> pairs_of_;  // each boundary's, increasing
+  std::vector<Group> groups_;
 };
 
 }  // namespace stokes

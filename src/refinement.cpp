@@ -3,43 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "container_gap.hpp"
+#include "facing.hpp"
 #include "neighbours.hpp"
 
 namespace stokes {
 
 namespace {
 
-// The spacing wanted, in units of w; a cluster is worth its nodes from this excess on, and up to this density
-// (gaps of a thousandth of a semi-axis).
-constexpr double wanted_spacing = 0.6, least_density = 1.5, largest_density = 60.0;
-
 // Of the mobility across a gap.
 constexpr double largest_mobility_error = 0.1;
 
-// Adds a cluster where `body` faces a neighbour in direction n (laboratory frame), if its nodes are too sparse.
-void add_cluster(const Body& body, Complex n, double width, double fineness, Discretisation& nodes) {
-  const Complex axis = body.pose.axis();
-  const Complex p = body.shape.support(std::conj(axis) * n).point;
-  const double c = p.real() / body.shape.a, s = p.imag() / body.shape.b;
-  const double spacing = std::hypot(body.shape.a * s, body.shape.b * c) * 2.0 * pi / nodes.points;
-  const double excess = spacing * fineness / (wanted_spacing * width);
-  if (excess < least_density) return;
-  const double density = std::clamp(excess - 1.0, 1.0, largest_density);
-  const double alpha = std::atan2(s, c);
-  nodes.clusters.push_back({alpha < 0.0 ? alpha + 2.0 * pi : alpha, density});
-}
+// A boundary in front of another.
+struct Front {
+  int boundary;  // bodies, then the container
+  double alpha;  // of its nearest point
+  double width;  // W
+  double gap, curvature;
 
-// What a body has in front of it.
-struct Facing {
-  int body;
-  Complex normal;    // outwards, laboratory frame
-  double gap;        // 0 for overlap
-  double curvature;  // of the gap: the sum of those of the two boundaries
-
-  double width() const { return std::sqrt(2.0 * gap / std::max(curvature, 1e-6) + gap * gap); }
   // Across the gap, of the lubrication between the two curvatures.
-  double mobility() const { return std::pow(gap * curvature, 1.5) / (3.0 * std::sqrt(2.0) * pi); }
+  double mobility() const { return std::pow(std::max(gap * curvature, 0.0), 1.5) / (3.0 * std::sqrt(2.0) * pi); }
 };
 
 // The error of the mobility of an ellipse with N nodes at equal steps, as measured at a wall along a flank.
@@ -50,58 +32,55 @@ double mobility_error(const Shape& shape, int points) {
 // Of a body with nodes of its own, those stay.
 bool has_own_nodes(const Body& body) { return body.points > 0; }
 
-// Twice and four times as many where the error is not small beside the mobility.
-void add_points(const Body& body, const Facing& facing, int least, double fineness, Discretisation& nodes) {
-  while (nodes.points < 4 * least &&
-         mobility_error(body.shape, nodes.points) * fineness > largest_mobility_error * facing.mobility())
-    nodes.points *= 2;
-}
-
-// The pairs of what may be too close for the nodes, either way round; walls face nobody.
-std::vector<Facing> facings(const Suspension& bodies, int points, double fineness) {
+// Every boundary that is within its reach of another, either way round.
+std::vector<Front> fronts(const Suspension& bodies, const std::vector<double>& reach) {
   std::vector<Complex> centres;
   std::vector<double> radii;
-  double reach = 0.0;
   for (const Body& body : bodies) {
     centres.push_back(body.pose.centre);
     radii.push_back(body.shape.circumradius());
-    if (has_own_nodes(body)) continue;
-    // Beyond, w >= g is more than the widest spacing asks for, and even the mobility along two flanks exceeds the error.
-    const double flank = radii.back() * radii.back() / body.shape.inradius();
-    const double mobility = mobility_error(body.shape, points) * fineness / largest_mobility_error;
-    reach = std::max({reach, 2.0 * pi * radii.back() / points * fineness / (wanted_spacing * least_density),
-                      flank * std::pow(3.0 * std::sqrt(2.0) * pi * mobility, 2.0 / 3.0)});
   }
-  std::vector<Facing> result;
-  for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, reach)) {
-    const Body &a = bodies[i], &b = bodies[j];
-    const Gap between = gap(a, b);
-    const double curvature = 1.0 / a.shape.support(std::conj(a.pose.axis()) * between.normal).curvature_radius +
-                             1.0 / b.shape.support(std::conj(b.pose.axis()) * -between.normal).curvature_radius;
-    const double g = std::max(between.value, 0.0);
-    if (!has_own_nodes(a)) result.push_back({i, between.normal, g, curvature});
-    if (!has_own_nodes(b)) result.push_back({j, -between.normal, g, curvature});
-  }
-  for (std::size_t i = 0; bodies.container && i < bodies.size(); ++i) {
-    const Body& body = bodies[i];
-    if (has_own_nodes(body)) continue;
-    const Gap between = gap(body, *bodies.container);
-    if (between.value > reach) continue;
-    const Support support = body.shape.support(std::conj(body.pose.axis()) * between.normal);
-    result.push_back({static_cast<int>(i), between.normal, std::max(between.value, 0.0),
-                      std::max(1.0 / support.curvature_radius - 1.0 / bodies.container->radius, 0.0)});
-  }
+  std::vector<Front> result;
+  const auto add = [&](int i, int j, const Body& a, const auto& b) {
+    const Facing f = facing(a, b);
+    if (f.gap > std::max(reach[i], reach[j])) return;
+    const double width = contact_width(f, a, b);
+    if (f.gap <= reach[i]) result.push_back({i, f.alpha_a, width, f.gap, f.curvature()});
+    if (f.gap <= reach[j]) result.push_back({j, f.alpha_b, width, f.gap, f.curvature()});
+  };
+  const int count = static_cast<int>(bodies.size());
+  const double farthest = count == 0 ? 0.0 : *std::max_element(reach.begin(), reach.begin() + count);
+  for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, farthest))
+    if (std::abs(centres[i] - centres[j]) - radii[i] - radii[j] <= std::max(reach[i], reach[j]))
+      add(i, j, bodies[i], bodies[j]);
+  if (!bodies.container) return result;
+  const Container& wall = *bodies.container;
+  for (int i = 0; i < count; ++i)
+    if (wall.radius - std::abs(centres[i] - wall.centre) - radii[i] <= std::max(reach[i], reach[count]))
+      add(i, count, bodies[i], wall);
   return result;
 }
 
-// Of clusters that overlap the densest is kept.
+// Beyond, W >= gap is wide enough for the equal steps.
+double cluster_reach(const Shape& shape, int points, double tolerance) {
+  return shape.circumradius() * std::log(1.0 / tolerance) / points;
+}
+
+void add_cluster(const Shape& shape, const Front& front, double factor, double tolerance, Discretisation& nodes) {
+  const double digits = std::log(1.0 / tolerance), w = front.width / std::abs(shape.derivative(front.alpha));
+  if (w > digits / nodes.points) return;
+  const double count = factor * 2.0 / (pi * pi) * std::log(8.0 / w) * digits;
+  nodes.clusters.push_back({front.alpha, w, 2 * static_cast<int>(std::ceil(0.5 * count))});
+}
+
+// Of clusters closer than the narrower is wide that one is kept.
 void merge(std::vector<NodeCluster>& clusters) {
   std::stable_sort(clusters.begin(), clusters.end(),
-                   [](const NodeCluster& a, const NodeCluster& b) { return a.density > b.density; });
+                   [](const NodeCluster& a, const NodeCluster& b) { return a.width < b.width; });
   std::vector<NodeCluster> kept;
   for (const NodeCluster& c : clusters) {
     const bool covered = std::any_of(kept.begin(), kept.end(), [&c](const NodeCluster& k) {
-      return std::abs(std::remainder(c.alpha - k.alpha, 2.0 * pi)) < 2.0 / (1.0 + k.density);
+      return std::abs(std::remainder(c.alpha - k.alpha, 2.0 * pi)) < k.width;
     });
     if (!covered) kept.push_back(c);
   }
@@ -117,13 +96,47 @@ std::vector<Discretisation> equal_nodes(const Suspension& bodies, int points) {
   return nodes;
 }
 
-std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, double fineness) {
+std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, double tolerance) {
   std::vector<Discretisation> nodes = equal_nodes(bodies, points);
-  const std::vector<Facing> close = facings(bodies, points, fineness);
-  for (const Facing& f : close) add_points(bodies[f.body], f, points, fineness, nodes[f.body]);
-  for (const Facing& f : close) add_cluster(bodies[f.body], f.normal, f.width(), fineness, nodes[f.body]);
+  std::vector<double> reach;
+  for (const Body& body : bodies) {
+    // Beyond, even the mobility along two flanks exceeds the error.
+    const double flank = std::pow(body.shape.circumradius(), 2) / body.shape.inradius();
+    const double mobility = mobility_error(body.shape, points) / largest_mobility_error;
+    reach.push_back(has_own_nodes(body) ? -1.0
+                                        : std::max(cluster_reach(body.shape, points, tolerance),
+                                                   flank * std::pow(3.0 * std::sqrt(2.0) * pi * mobility, 2.0 / 3.0)));
+  }
+  reach.push_back(-1.0);  // the container
+  const std::vector<Front> close = fronts(bodies, reach);
+  for (const Front& f : close)
+    while (nodes[f.boundary].points < 4 * points &&
+           mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) > largest_mobility_error * f.mobility())
+      nodes[f.boundary].points *= 2;
+  for (const Front& f : close) add_cluster(bodies[f.boundary].shape, f, 1.0, tolerance, nodes[f.boundary]);
   for (Discretisation& d : nodes) merge(d.clusters);
   return nodes;
+}
+
+ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance) {
+  std::vector<Shape> shapes;
+  for (const Body& body : bodies) shapes.push_back(body.shape);
+  if (bodies.container) shapes.push_back(wall_shape(*bodies.container));
+  ClusteredNodes result;
+  auto& nodes = result.nodes;
+  result.relative_gap.assign(shapes.size(), 2.0);
+  std::vector<double> reach;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    nodes.push_back({resolution[i].points, {}});
+    reach.push_back(cluster_reach(shapes[i], resolution[i].points, tolerance));
+  }
+  for (const Front& f : fronts(bodies, reach)) {
+    add_cluster(shapes[f.boundary], f, resolution[f.boundary].factor, tolerance, nodes[f.boundary]);
+    double& least = result.relative_gap[f.boundary];
+    least = std::min(least, std::max(f.gap * f.curvature, 1e-12));
+  }
+  for (Discretisation& d : nodes) merge(d.clusters);
+  return result;
 }
 
 }  // namespace stokes

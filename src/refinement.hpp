@@ -1,11 +1,11 @@
-// More nodes where bodies are close to each other.
+// Nodes drawn to where bodies are close to each other and to walls.
 //
-// Across a gap g between boundaries of curvature radii R_A and R_B the density varies over
-//   w = sqrt(2 R g + g^2),   1/R = 1/R_A + 1/R_B   (R_B < 0 for a container),
-// and two contacts as far apart as the bodies of a suspension are long are equally sharp. Instead of more nodes
-// everywhere, a cluster of as many nodes as the body has is put where it is close: its spacing there is a fixed
-// part of w. With 32 nodes, a cluster each on two ellipses 4.75:1, tip on flank, gives the normal mobility at
-// gaps down to a thirtieth of the short semi-axis to better than 1 %; 128 equally spaced nodes miss it by half.
+// Across a gap g between boundaries the density varies over the width W (facing.hpp) at the contact and over its
+// distance from the contact beside it. A cluster of nodes (node_map.hpp) of that width on either boundary resolves it
+// with nodes at equal steps of sigma = asinh(t/w), w = W/|zeta'|, in which it is analytic for |Im sigma| < pi/2. The
+// velocities of the bodies, smooth functionals of it, have errors exp(-pi^2/D) at steps D = 2 ln(8/w)/N_k. Hence
+//   N_k = (2/pi^2) ln(8/w) ln(1/tolerance)
+// nodes, and none where the N_0 equal steps resolve W by themselves, w > ln(1/tolerance)/N_0.
 //
 // Clusters do not help a slender body whose own equations N nodes do not resolve, which is an error in its mobility of
 // about 0.15 exp(-N atanh(b/a)). It does not matter beside most mobilities, but it does along a flank, where a gap g of
@@ -22,14 +22,31 @@ namespace stokes {
 
 enum class Refine {
   none,  // every body has points_per_body nodes at equal steps
-  near,  // and clusters where the nodes are too far apart for the gap to a neighbour
+  near,  // and clusters where they are too far apart for the gap to a neighbour
 };
 
 // Nodes of every body when all have `points`, or their own number.
 std::vector<Discretisation> equal_nodes(const Suspension& bodies, int points);
 
-// Nodes of every body, by the poses alone. `fineness` >= 1 divides the spacing wanted. Walls (bodies with nodes of
-// their own) keep theirs. Cost: a neighbour search and a gap for each pair found.
-std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, double fineness);
+// Of Refine::near: mobilities across gaps down to a hundredth of a body to 1 %.
+inline constexpr double near_tolerance = 1e-6;
+
+// Nodes of every body, by the poses alone. Walls (bodies with nodes of their own) keep theirs. Cost: a neighbour
+// search and a facing for each pair found.
+std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, double tolerance);
+
+// Nodes N_0 of a boundary, and what the rule for the nodes of its clusters is multiplied by.
+struct Resolution {
+  int points;
+  double factor = 1.0;
+};
+
+struct ClusteredNodes {
+  std::vector<Discretisation> nodes;
+  std::vector<double> relative_gap;  // the smallest gap of each boundary in units of its radius of curvature; 2 if none
+};
+
+// Nodes of every body and of the container, if there is one, each with the clusters that its resolution needs.
+ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance);
 
 }  // namespace stokes

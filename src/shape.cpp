@@ -1,6 +1,5 @@
 #include "shape.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "curve.hpp"
@@ -31,76 +30,59 @@ double Shape::perimeter() const {
 
 namespace {
 
-// The map s(alpha) and its first two derivatives.
-struct ParameterMap {
-  double s, first, second;
-};
-
-// Without the constant that makes s = 0 at alpha = 0.
-ParameterMap parameter_map(double alpha, const std::vector<NodeCluster>& clusters) {
-  ParameterMap map{alpha, 1.0, 0.0};
-  for (const NodeCluster& c : clusters) {
-    const double r = (c.density - 1.0) / (c.density + 1.0), x = alpha - c.alpha, sine = std::sin(x), cosine = std::cos(x);
-    const double q = 1.0 - 2.0 * r * cosine + r * r, slope = (1.0 - r * r) / q;
-    map.s += x + 2.0 * std::atan2(r * sine, 1.0 - r * cosine);
-    map.first += slope;
-    map.second -= slope * 2.0 * r * sine / q;
+// e^{it} - 1 - it, each part to its own relative accuracy.
+Complex exponential_remainder(double t) {
+  const double half = std::sin(0.5 * t);
+  double imaginary = std::sin(t) - t;
+  if (std::abs(t) < 0.3) {
+    imaginary = 0.0;
+    double term = -t;
+    for (int k = 2; k < 14; k += 2) imaginary += term *= -t * t / (k * (k + 1.0));
+    imaginary = -imaginary;
   }
-  const double scale = 1.0 / (1.0 + static_cast<double>(clusters.size()));
-  return {scale * map.s, scale * map.first, scale * map.second};
+  return {-2.0 * half * half, imaginary};
 }
 
 }  // namespace
 
-double Shape::position_of(double alpha, const Discretisation& nodes) {
-  if (nodes.clusters.empty()) return alpha;
-  return parameter_map(alpha, nodes.clusters).s - parameter_map(0.0, nodes.clusters).s;
+double Shape::parameter(Complex n) const {
+  const Complex p = support(n).point;
+  const double alpha = std::atan2(p.imag() / b, p.real() / a);
+  return alpha < 0.0 ? alpha + 2.0 * pi : alpha;
 }
 
-// Newton's method from where the node before points to, kept between bounds that it narrows; s increases with alpha.
-std::vector<double> Shape::parameters(const Discretisation& nodes) {
-  const int n = nodes.size();
-  const double spacing = 2.0 * pi / n;
-  std::vector<double> alpha(n);
-  if (nodes.clusters.empty()) {
-    for (int k = 0; k < n; ++k) alpha[k] = spacing * k;
-    return alpha;
-  }
-  ParameterMap map = parameter_map(0.0, nodes.clusters);
-  const double start = map.s;
-  for (int k = 1; k < n; ++k) {
-    const double s = start + spacing * k;
-    double low = alpha[k - 1], high = 2.0 * pi, x = std::min(low + spacing / map.first, high);
-    for (int iteration = 0; iteration < 100; ++iteration) {
-      map = parameter_map(x, nodes.clusters);
-      const double step = (s - map.s) / map.first, next = x + step;
-      if (std::abs(step) <= 1e-10) {  // what is left is of the order of its square
-        x = next;
-        break;
-      }
-      (map.s < s ? low : high) = x;
-      x = next > low && next < high ? next : 0.5 * (low + high);
-    }
-    alpha[k] = x;
-  }
-  return alpha;
+Complex Shape::point(double alpha) const { return {a * std::cos(alpha), b * std::sin(alpha)}; }
+
+Complex Shape::derivative(double alpha) const { return {-a * std::sin(alpha), b * std::cos(alpha)}; }
+
+// zeta = Sum_k c_k e^{i k alpha} with c_1 = (a + b)/2, c_-1 = (a - b)/2. The part zeta' t is along the tangent, and
+// Sum_k c_k e^{i k alpha} (e^{ikt} - 1 - ikt) is left.
+Complex Shape::offset(double alpha, double t) const {
+  const Complex slope = derivative(alpha), turn = std::polar(1.0, alpha), rest = exponential_remainder(t);
+  const double speed = std::abs(slope);
+  const Complex bend = 0.5 * (a + b) * turn * rest + 0.5 * (a - b) * std::conj(turn * rest);
+  return std::conj(slope / speed) * bend + speed * t;
 }
 
-Curve Shape::curve(const Discretisation& nodes) const {
-  const int n = nodes.size();
+Curve Shape::curve(const Discretisation& nodes, int upsampling) const {
+  const std::vector<MappedNode> mapped = NodeMap(nodes).at_equal_steps(nodes.size() * upsampling);
+  const auto n = static_cast<Eigen::Index>(mapped.size());
   ComplexVector position(n), first(n), second(n);
-  const std::vector<double> parameter = parameters(nodes);
-  for (int k = 0; k < n; ++k) {
-    const double c = std::cos(parameter[k]), s = std::sin(parameter[k]);
-    position[k] = {a * c, b * s};
-    first[k] = {-a * s, b * c};
-    second[k] = -position[k];
-    if (nodes.clusters.empty()) continue;
-    const ParameterMap map = parameter_map(parameter[k], nodes.clusters);
-    first[k] /= map.first;
-    second[k] = (second[k] / map.first - first[k] * map.second / map.first) / map.first;
+  CurveClusters clusters;
+  for (const NodeCluster& c : nodes.clusters) {
+    const Complex slope = derivative(c.alpha);
+    clusters.tangent.push_back(slope / std::abs(slope));
   }
-  return Curve(std::move(position), std::move(first), second);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const MappedNode& node = mapped[k];
+    position[k] = point(node.alpha);
+    first[k] = derivative(node.alpha) * node.first;
+    second[k] = derivative(node.alpha) * node.second - position[k] * (node.first * node.first);
+    if (node.cluster < 0) continue;
+    clusters.nearest.push_back(node.cluster);
+    clusters.offset.push_back(offset(nodes.clusters[node.cluster].alpha, node.distance));
+  }
+  return Curve(std::move(position), std::move(first), std::move(second), std::move(clusters));
 }
 
 Curve Shape::curve(int points) const { return curve(Discretisation{points, {}}); }

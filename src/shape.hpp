@@ -1,9 +1,8 @@
 // Shapes of bodies: everything the package knows of a body's form is asked of this class.
 #pragma once
 
-#include <vector>
-
 #include "base.hpp"
+#include "node_map.hpp"
 
 namespace stokes {
 
@@ -14,23 +13,6 @@ struct Support {
   double height;     // h(n)
   Complex point;     // the boundary point p that attains it
   double curvature_radius;  // h + h'', the radius of curvature there
-};
-
-// A place of a boundary, in its parameter, around which nodes stand closer, by up to `density` >= 1 times.
-struct NodeCluster {
-  double alpha;
-  double density;
-
-  bool operator==(const NodeCluster&) const = default;
-};
-
-// Nodes of a boundary: `points` of them at equal steps of the parameter, and as many again around each cluster.
-struct Discretisation {
-  int points = 0;
-  std::vector<NodeCluster> clusters;
-
-  int size() const { return points * (1 + static_cast<int>(clusters.size())); }
-  bool operator==(const Discretisation&) const = default;
 };
 
 // An ellipse with semi-axis a along the body's first axis and b across it; a disc has a = b.
@@ -49,17 +31,18 @@ struct Shape {
   // Arclength of the boundary, to round-off.
   double perimeter() const;
 
-  // The boundary in the body frame (centre 0, angle 0), zeta = a cos(alpha) + i b sin(alpha), at n nodes of equal
-  // steps of a parameter s that maps the circle to itself. With m clusters and Poisson kernels P of mean 1,
-  //   (1 + m) s = alpha + Sum_k Int_0^alpha P_k,   P_k = (1-r_k^2)/(1 - 2 r_k cos(alpha - alpha_k) + r_k^2),
-  // with (1+r_k)/(1-r_k) = density_k; analytic, so that the trapezoid rule keeps its accuracy.
-  Curve curve(const Discretisation& nodes) const;
+  // The boundary in the body frame (centre 0, angle 0), zeta = a cos(alpha) + i b sin(alpha): at its nodes, or at
+  // `upsampling` times as many equal steps of the same parameter (node_map.hpp).
+  Curve curve(const Discretisation& nodes, int upsampling = 1) const;
   Curve curve(int points) const;
 
-  // Node parameters alpha of the same nodes, increasing from 0.
-  static std::vector<double> parameters(const Discretisation& nodes);
-  // Where in [0, 2 pi) of s a value of alpha in [0, 2 pi) stands: the inverse of that map.
-  static double position_of(double alpha, const Discretisation& nodes);
+  // alpha in [0, 2 pi) of the point that reaches farthest along n, and what belongs to a value of alpha.
+  double parameter(Complex n) const;
+  Complex point(double alpha) const;
+  Complex derivative(double alpha) const;  // zeta'(alpha)
+  // zeta(alpha + t) - zeta(alpha) in the frame whose first axis is the tangent at alpha. Each component, along the
+  // tangent and across, to its own relative accuracy for any t.
+  Complex offset(double alpha, double t) const;
 };
 
 }  // namespace stokes

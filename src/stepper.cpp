@@ -24,20 +24,10 @@ constexpr std::size_t extrapolation_points = 3;
 constexpr double column_tolerance = 1e-6;
 // An iteration costs one solve, columns of the full mobility one for each contact: of about a hundred in dense suspensions.
 constexpr int nearby_iterations = 24;
-constexpr double finest = 4.0;  // largest fineness of clusters
-constexpr int fine_steps = 50;  // that clusters stay fine, until coarser ones are tried again
 
-// A density on other nodes, boundary by boundary.
+// A density on other nodes.
 ComplexVector moved(const StepperMemory::Density& density, const std::vector<Discretisation>& nodes) {
-  Eigen::Index size = 0, from = 0, to = 0;
-  for (const Discretisation& d : nodes) size += d.size();
-  ComplexVector result(size);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Eigen::Index old = density.nodes[i].size();
-    result.segment(to, nodes[i].size()) = move_density(density.value.segment(from, old), density.nodes[i], nodes[i]);
-    from += old, to += nodes[i].size();
-  }
-  return result;
+  return move_densities(density.value, density.nodes, nodes);
 }
 
 // The first and the last body that a wrench acts on: those of a contact.
@@ -69,9 +59,9 @@ int Stepper::shape_count() const {
 }
 
 Stepper::Configuration::Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes,
-                                      double driving_, double fineness_)
-    : driving(driving_), fineness(fineness_),
-      nodes(options.refine == Refine::near ? refined_nodes(bodies, options.points_per_body, fineness)
+                                      double driving_)
+    : driving(driving_),
+      nodes(options.refine == Refine::near ? refined_nodes(bodies, options.points_per_body, near_tolerance)
                                            : equal_nodes(bodies, options.points_per_body)),
       system(bodies, nodes, shapes, options.stokes) {
   if (bodies.container) nodes.push_back({bodies.container->points, {}});
@@ -101,10 +91,8 @@ ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& h
 }
 
 Stepper::Configuration& Stepper::configuration(double driving) {
-  if (now_ && now_->driving == driving && now_->fineness == memory_.fineness) return *now_;
-  const bool again = now_ && now_->driving == driving;
-  const int spent = again ? now_->gmres_iterations : 0, solves = again ? now_->stokes_solves : 0;
-  now_.emplace(bodies_, options_, shapes_, driving, memory_.fineness);
+  if (now_ && now_->driving == driving) return *now_;
+  now_.emplace(bodies_, options_, shapes_, driving);
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   StokesSolution solution;
@@ -116,9 +104,9 @@ Stepper::Configuration& Stepper::configuration(double driving) {
     now_.reset();  // a configuration without its velocities is none
     throw;
   }
-  now_->gmres_iterations = spent + solution.iterations;
+  now_->gmres_iterations = solution.iterations;
   now_->background_iterations = solution.iterations;
-  now_->stokes_solves = solves + 1;
+  now_->stokes_solves = 1;
   now_->data_norm = solution.data_norm;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
@@ -209,54 +197,27 @@ NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp,
   return solve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
 }
 
-// A failure may be due to what was learnt in other configurations, to columns of nearby bodies or to nodes too sparse
-// for the gaps: columns anew come first, then finer nodes, whole columns last. Whether coarser nodes do is seen by
-// columns anew only.
+// A failure may be due to what was learnt in other configurations or to columns of nearby bodies: columns anew come
+// first, whole ones last.
 NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& ncp) {
   NcpOptions at_first = ncp;
   at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
-  configuration(driving);
-  if (memory_.coarsened) {
-    const KnownContacts known = std::exchange(memory_.known, {});
-    const std::vector<StepperMemory::Density> answers = std::exchange(memory_.answers, {});
-    const NcpResult result = resolve(*now_, dt, at_first, LcpMatrix::near);
-    if (result.solved) return result;
-    memory_.known = known, memory_.answers = answers;
-    refine(result, driving);
+  Configuration& now = configuration(driving);
+  NcpResult result = resolve(now, dt, at_first, LcpMatrix::near);
+  if (!result.solved && !memory_.known.contacts.empty()) {
+    forget_contacts();
+    now.ncp_iterations += result.iterations;
+    result = resolve(now, dt, at_first, LcpMatrix::near);
   }
-  for (;;) {
-    NcpResult result = resolve(*now_, dt, at_first, LcpMatrix::near);
-    if (!result.solved && !memory_.known.contacts.empty()) {
-      forget_contacts();
-      now_->ncp_iterations += result.iterations;
-      result = resolve(*now_, dt, at_first, LcpMatrix::near);
-    }
-    if (result.solved) return result;
-    if (result.unresolved && refine(result, driving)) continue;
-    now_->ncp_iterations += result.iterations;
-    result = resolve(*now_, dt, ncp, LcpMatrix::full);
-    if (!result.unresolved || !refine(result, driving)) return result;
-  }
-}
-
-// Goes on to the same configuration with denser clusters, after a failure; false when there are none.
-bool Stepper::refine(const NcpResult& failed, double driving) {
-  if (options_.refine != Refine::near || memory_.fineness >= finest) return false;
-  memory_.fineness *= 2.0;
-  memory_.steps_as_fine = 0;
-  const int spent = failed.iterations + now_->ncp_iterations;
-  configuration(driving).ncp_iterations = spent;
-  return true;
+  if (result.solved) return result;
+  now.ncp_iterations += result.iterations;
+  return resolve(now, dt, ncp, LcpMatrix::full);
 }
 
 StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
-  NcpResult result;
-  if (options_.lcp_matrix == LcpMatrix::near) {
-    result = resolve_nearby(dt, driving, ncp);
-  } else {
-    result = resolve(configuration(driving), dt, ncp, options_.lcp_matrix);
-    while (result.unresolved && refine(result, driving)) result = resolve(*now_, dt, ncp, options_.lcp_matrix);
-  }
+  NcpResult result = options_.lcp_matrix == LcpMatrix::near
+                         ? resolve_nearby(dt, driving, ncp)
+                         : resolve(configuration(driving), dt, ncp, options_.lcp_matrix);
   Configuration& now = *now_;
   now.ncp_iterations += result.iterations;
 
@@ -296,8 +257,6 @@ void Stepper::remember(Configuration& now, ComplexVector total, KnownContacts kn
   } else {
     forget_contacts();
   }
-  memory_.coarsened = memory_.fineness > 1.0 && ++memory_.steps_as_fine >= fine_steps;
-  if (memory_.coarsened) memory_.fineness *= 0.5, memory_.steps_as_fine = 0;
   memory_.total = {memory_.path, now.nodes, std::move(total)};
 }
 

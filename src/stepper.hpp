@@ -82,9 +82,6 @@ struct StepperMemory {
   std::vector<Density> answers;     // those of known.multipliers, of contact forces alone
   // Answers to unit forces between the bodies that were in contact in the latest step, newest last.
   std::map<std::pair<int, int>, std::vector<Density>> contacts;
-  double fineness = 1.0;   // of the clusters, with which the next configuration begins
-  int steps_as_fine = 0;   // how many it has lasted
-  bool coarsened = false;  // it is half of that of the latest step
 };
 
 class Stepper {
@@ -102,8 +99,7 @@ class Stepper {
   // Tries a step of size dt with everything that drives the fluid multiplied by `driving`. Accepted, it moves the
   // bodies; otherwise they stay as they are, bit for bit, and another attempt reuses what was solved.
   // A contact force that does not part its bodies, or mobilities that are not symmetric, mean nodes too sparse for
-  // the gap: with Refine::near the configuration is solved again with twice and four times the density of its
-  // clusters before the step fails, and the next ones begin with that. NumericalError when GMRES fails.
+  // the gap: the step fails. NumericalError when GMRES fails.
   StepOutcome attempt(double dt, double driving, const NcpOptions& ncp);
 
   // The largest step in which, by the contact-free velocities, no body turns by more than 0.2, no two neighbours
@@ -114,10 +110,9 @@ class Stepper {
  private:
   // What is known of the current configuration.
   struct Configuration {
-    Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes, double driving_,
-                  double fineness_);
+    Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes, double driving_);
 
-    double driving, fineness;
+    double driving;
     std::vector<Discretisation> nodes;
     StokesSystem system;
     Response contact_free;
@@ -137,7 +132,6 @@ class Stepper {
   void forget_contacts();
   NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix);
   NcpResult resolve_nearby(double dt, double driving, const NcpOptions& ncp);
-  bool refine(const NcpResult& failed, double driving);
   void remember(Configuration& now, ComplexVector total, KnownContacts known);
   void turn_walls(double way);
   void accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome);

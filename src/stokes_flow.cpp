@@ -134,6 +134,22 @@ std::vector<Complex> StokesSystem::stresslets(const ComplexVector& density, cons
   return result;
 }
 
+std::vector<double> StokesSystem::density_tails(const ComplexVector& density) const {
+  const double scale = density.size() > 0 ? density.cwiseAbs().maxCoeff() : 0.0;
+  std::vector<double> tails;
+  for (const PlacedShape& b : boundaries_) {
+    const int n = b.size();
+    const ComplexVector c = fourier_coefficients(density.segment(b.offset, n));
+    double largest = 0.0, last = 0.0;
+    for (int k = 1; k < n; ++k) {
+      largest = std::max(largest, std::abs(c[k]));
+      if (std::min(k, n - k) > 0.4 * n) last = std::max(last, std::abs(c[k]));
+    }
+    tails.push_back(largest > 1e-10 * scale ? last / largest : 0.0);
+  }
+  return tails;
+}
+
 double StokesSystem::density_tail(const ComplexVector& density) const {
   double largest = 0.0;
   const double scale = density.size() > 0 ? density.cwiseAbs().maxCoeff() : 0.0;

@@ -42,7 +42,7 @@ ComplexVector StokesSystem::double_layer(const BoundarySet& set, const Complex* 
   const ComplexVector lab = in_laboratory(set, density);
   if (!fmm_ || &set != &all_) {
     ComplexVector sum;
-    double_layer_velocity(set.nodes, set.nodes, set.weighted_normal, lab, sum);
+    double_layer_velocity(set.nodes, set.nodes, set.weighted_normal, lab, sum, softening_);
     return sum;
   }
   FlowFields fields;
@@ -133,7 +133,7 @@ void StokesSystem::add_long_circle(const NearBlock& near, const std::vector<Long
     z.push_back(source.local(x));
   }
   ComplexVector plain;
-  double_layer_velocity(points, long_circles_[c].nodes, long_circles_[c].weighted_normal, flows[c].density, plain);
+  double_layer_velocity(points, long_circles_[c].nodes, long_circles_[c].weighted_normal, flows[c].density, plain, softening_);
   const std::vector<Complex> exact = flows[c].series.velocity(z);
   for (std::size_t r = 0; r < near.rows.size(); ++r)
     result[near.rows[r]] += std::conj(target.axis) * (source.axis * exact[r] - plain[static_cast<Eigen::Index>(r)]);

@@ -18,6 +18,7 @@
 
 #include "direct_sum.hpp"
 #include "discrete_shape.hpp"
+#include "facing.hpp"
 #include "flow.hpp"
 #include "fmm.hpp"
 #include "preconditioner.hpp"
@@ -111,6 +112,9 @@ class StokesSystem {
   // Share of the density's Fourier energy, rigid motions apart, in the top third of the modes
   // (|k| > N/3): the largest over the bodies. A resolution indicator.
   double density_tail(const ComplexVector& density) const;
+  // Of each boundary: max_{|k| > 0.4 N} |eta_k| / max_{k != 0} |eta_k| of its modes in the parameter of its nodes; 0 where
+  // the density is round-off beside that of others.
+  std::vector<double> density_tails(const ComplexVector& density) const;
 
  private:
   struct NearBlock {  // correction of the trapezoid sum from `source` at some nodes of `target`
@@ -127,12 +131,26 @@ class StokesSystem {
     ComplexVector density; // laboratory frame
   };
 
+  // A target whose cluster faces one of the source: p_source - p_target, the points of the clusters, and the tangent
+  // of the source there, in the frame of the tangent of the target.
+  struct ContactFrame {
+    int target, source;
+    int target_cluster, source_cluster;
+    Complex displacement, turn;
+  };
+
   void place(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes);
+  void find_contact_frames(const Suspension& bodies);
+  void add_contact_frame(int a, int b, const Facing& facing);
+  double softening_length() const;
+  std::vector<Target> seen_from(int source, int target, const std::vector<int>& rows) const;
+  Matrix plain_rows(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const;
   bool has_container() const;
   double near_reach(int boundary) const;
   void find_near_blocks();
+  void find_own_correction(NearBlock& near) const;
   void find_completion_columns();
-  std::vector<std::pair<int, int>> close_pairs(const Suspension& bodies) const;
+  std::vector<ClosePair> close_pairs(const Suspension& bodies) const;
   Matrix interaction(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const;
   BoundarySet around(const std::vector<Wrench>& wrenches) const;
 
@@ -159,6 +177,8 @@ class StokesSystem {
   std::vector<int> fixed_;               // the fixed bodies
   double log_length_ = 1.0;
   BoundarySet all_;
+  double softening_ = 0.0;                // of the sums over nodes
+  std::vector<ContactFrame> frames_;      // ordered by target
   std::vector<NearBlock> near_;      // ordered by target
   std::vector<int> first_near_;      // near_ of boundary i: [first_near_[i], first_near_[i + 1])
   std::vector<LongCircle> long_circles_;

@@ -1,0 +1,131 @@
+#include "node_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "base.hpp"
+
+namespace stokes {
+
+namespace {
+
+double arithmetic_geometric_mean(double x, double y) {
+  while (std::abs(x - y) > 1e-15 * x) {
+    const double mean = 0.5 * (x + y);
+    y = std::sqrt(x * y);
+    x = mean;
+  }
+  return x;
+}
+
+// Carlson's R_F by duplication, to round-off: differences shrink by four each time, and the series of the remainder is
+// that of order five (DLMF 19.36.1).
+double carlson_rf(double x, double y, double z) {
+  double mean, dx, dy, dz;
+  do {
+    const double a = std::sqrt(x), b = std::sqrt(y), c = std::sqrt(z), lambda = a * b + b * c + c * a;
+    x = 0.25 * (x + lambda), y = 0.25 * (y + lambda), z = 0.25 * (z + lambda);
+    mean = (x + y + z) / 3.0;
+    dx = 1.0 - x / mean, dy = 1.0 - y / mean, dz = 1.0 - z / mean;
+  } while (std::max({std::abs(dx), std::abs(dy), std::abs(dz)}) > 2e-3);
+  const double e2 = dx * dy - dz * dz, e3 = dx * dy * dz;
+  return (1.0 - e2 / 10.0 + e3 / 14.0 + e2 * e2 / 24.0 - 3.0 * e2 * e3 / 44.0) / std::sqrt(mean);
+}
+
+}  // namespace
+
+int Discretisation::size() const {
+  int count = points;
+  for (const NodeCluster& c : clusters) count += c.points;
+  return count;
+}
+
+// I(t) = sign(t) (2 m/w) R_F(c, c + 1, c + 1 + 4/w^2), c = cot^2(t/2), and I(t + 2 pi) = I(t) + 2 pi.
+double NodeMap::Kernel::integral(double t) const {
+  const double turns = std::round(t / (2.0 * pi)), rest = t - 2.0 * pi * turns;
+  if (rest == 0.0) return 2.0 * pi * turns;
+  const double cotangent = std::cos(0.5 * rest) / std::sin(0.5 * rest), c = cotangent * cotangent;
+  const double part = 2.0 * scale / width * carlson_rf(c, c + 1.0, c + 1.0 + 4.0 / (width * width));
+  return 2.0 * pi * turns + std::copysign(part, rest);
+}
+
+double NodeMap::Kernel::value(double t) const { return scale / std::hypot(width, 2.0 * std::sin(0.5 * t)); }
+
+double NodeMap::Kernel::slope(double t) const {
+  const double distance = std::hypot(width, 2.0 * std::sin(0.5 * t));
+  return -scale * std::sin(t) / (distance * distance * distance);
+}
+
+NodeMap::NodeMap(const Discretisation& nodes) {
+  for (const NodeCluster& c : nodes.clusters) {
+    const double share = static_cast<double>(c.points) / nodes.points;
+    const double scale = arithmetic_geometric_mean(std::sqrt(c.width * c.width + 4.0), c.width);
+    kernels_.push_back({c.alpha, c.width, scale, share, 0.0});
+    total_ += share;
+  }
+  start_ = sum(0.0);
+  for (Kernel& k : kernels_) k.position = position(k.alpha);
+}
+
+// Without the constant that makes s = 0 at alpha = 0.
+double NodeMap::sum(double alpha) const {
+  double result = alpha;
+  for (const Kernel& k : kernels_) result += k.share * k.integral(alpha - k.alpha);
+  return result / total_;
+}
+
+double NodeMap::position(double alpha) const { return kernels_.empty() ? alpha : sum(alpha) - start_; }
+
+// s less that of cluster k, at the distance t from it in alpha.
+NodeMap::Value NodeMap::from_cluster(std::size_t k, double t) const {
+  Value value{t, 1.0, 0.0};
+  for (std::size_t l = 0; l < kernels_.size(); ++l) {
+    const Kernel& kernel = kernels_[l];
+    const double apart = l == k ? 0.0 : kernels_[k].alpha - kernel.alpha;
+    value.s += kernel.share * (kernel.integral(apart + t) - kernel.integral(apart));
+    value.first += kernel.share * kernel.value(apart + t);
+    value.second += kernel.share * kernel.slope(apart + t);
+  }
+  return {value.s / total_, value.first / total_, value.second / total_};
+}
+
+// The inverse, by Newton's method for sigma in t = w sinh(sigma), of which s is nearly linear around the cluster; kept
+// between bounds that it narrows.
+double NodeMap::distance_from_cluster(std::size_t k, double s) const {
+  const double width = kernels_[k].width, sign = s < 0.0 ? -1.0 : 1.0;
+  double low = 0.0, high = std::asinh(2.0 * pi / width), sigma = std::abs(s) / (2.0 * pi) * high;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    const double t = sign * width * std::sinh(sigma);
+    const Value value = from_cluster(k, t);
+    const double excess = sign * (s - value.s), step = excess / (value.first * width * std::cosh(sigma));
+    const double next = sigma + step;
+    if (std::abs(step) <= 1e-9 * (1.0 + sigma)) return sign * width * std::sinh(next);  // what is left is its square
+    (excess > 0.0 ? low : high) = sigma;
+    sigma = next > low && next < high ? next : 0.5 * (low + high);
+  }
+  return sign * width * std::sinh(sigma);
+}
+
+std::vector<MappedNode> NodeMap::at_equal_steps(int count) const {
+  std::vector<MappedNode> nodes(count);
+  for (int j = 0; j < count; ++j) {
+    const double s = 2.0 * pi * j / count;
+    if (kernels_.empty()) {
+      nodes[j] = {s, 1.0, 0.0, -1, 0.0};
+      continue;
+    }
+    std::size_t nearest = 0;
+    double way = 4.0 * pi;
+    for (std::size_t k = 0; k < kernels_.size(); ++k)
+      if (const double from = std::remainder(s - kernels_[k].position, 2.0 * pi); std::abs(from) < std::abs(way))
+        way = from, nearest = k;
+    const double t = distance_from_cluster(nearest, way), alpha = kernels_[nearest].alpha + t;
+    const Value map = from_cluster(nearest, t);
+    nodes[j] = {alpha - 2.0 * pi * std::floor(alpha / (2.0 * pi)), 1.0 / map.first,
+                -map.second / (map.first * map.first * map.first), static_cast<int>(nearest), t};
+  }
+  return nodes;
+}
+
+}  // namespace stokes

@@ -1,0 +1,73 @@
+// Nodes of a closed curve, at equal steps of its parameter or drawn towards some of its points.
+//
+// The nodes stand at equal steps of s, and s -> alpha maps the circle to itself: with q_k = N_k / N_0 and kernels of mean 1
+//   (1 + Sum_k q_k) s = alpha + Sum_k q_k I_k(alpha - alpha_k) + constant,   I_k(t) = Int_0^t K_k,
+//   K = m / sqrt(w^2 + 4 sin^2(t/2)),   m = AGM(sqrt(w^2 + 4), w).
+// Around alpha_k nodes are as dense as 1/sqrt(w_k^2 + t^2): a function of the distance from a contact, which varies over
+// w at the contact and over t at a distance t from it, is resolved alike at every distance, with O(log 1/w) nodes. The
+// map is analytic, so that the trapezoid rule keeps its accuracy.
+#pragma once
+
+#include <vector>
+
+namespace stokes {
+
+// A place of a boundary, in its parameter, with `points` nodes of its own drawn to it; width > 0 in the parameter.
+struct NodeCluster {
+  double alpha;
+  double width;
+  int points;
+
+  bool operator==(const NodeCluster&) const = default;
+};
+
+// Nodes of a boundary: N_0 = `points` that are everywhere and N_k of each cluster. Their sum is even.
+struct Discretisation {
+  int points = 0;
+  std::vector<NodeCluster> clusters;
+  int upsampling = 0;  // of the close evaluation (cauchy.hpp); 0: by the aspect ratio of the boundary
+
+  int size() const;
+  bool operator==(const Discretisation&) const = default;
+};
+
+// A node, and the derivatives of alpha with respect to s there.
+struct MappedNode {
+  double alpha;  // in [0, 2 pi), up to round-off
+  double first, second;
+  int cluster;      // the nearest; -1: there are none
+  double distance;  // alpha - alpha_k of that cluster, in (-2 pi, 2 pi), to its own relative accuracy
+};
+
+class NodeMap {
+ public:
+  explicit NodeMap(const Discretisation& nodes);
+
+  // s in [0, 2 pi) of alpha in [0, 2 pi); s = 0 at alpha = 0.
+  double position(double alpha) const;
+
+  // At `count` equal steps of s from 0. Cost: some 5 incomplete elliptic integrals per node and cluster.
+  std::vector<MappedNode> at_equal_steps(int count) const;
+
+ private:
+  struct Kernel {
+    double alpha, width, scale, share, position;  // scale: m; share: q_k; position: s of the cluster
+
+    double integral(double t) const;
+    double value(double t) const;
+    double slope(double t) const;
+  };
+  struct Value {
+    double s, first, second;  // of s and its derivatives with respect to alpha
+  };
+
+  double sum(double alpha) const;
+  Value from_cluster(std::size_t k, double t) const;
+  double distance_from_cluster(std::size_t k, double s) const;
+
+  std::vector<Kernel> kernels_;
+  double total_ = 1.0;  // 1 + Sum q_k
+  double start_ = 0.0;
+};
+
+}  // namespace stokes

@@ -1,0 +1,147 @@
+#include "resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "facing.hpp"
+#include "fourier.hpp"
+
+namespace stokes {
+
+namespace {
+
+// 16, 24, 32, 48, 64, ...
+int next_points(int points) { return (points & (points - 1)) == 0 ? points / 2 * 3 : points / 3 * 4; }
+
+std::vector<Shape> shapes_of(const Suspension& bodies) {
+  std::vector<Shape> shapes;
+  for (const Body& body : bodies) shapes.push_back(body.shape);
+  if (bodies.container) shapes.push_back(wall_shape(*bodies.container));
+  return shapes;
+}
+
+double half_gap_root(double relative_gap) { return std::min(1.0, std::sqrt(0.5 * relative_gap)); }
+
+}  // namespace
+
+const ShapeResolution::Alone& ShapeResolution::alone(double aspect, int points) {
+  const auto [entry, is_new] = known_.try_emplace({aspect, points});
+  if (!is_new) return entry->second;
+  ShapeCache shapes;
+  for (int k = 0; k < 2; ++k) {
+    const Suspension body{{{1.0, aspect}, {0.0, 0.4 * k}}};
+    const StokesSystem system(body, points, shapes, {1e-12});
+    const StokesSolution solution = system.solve({FlowKind::shear}, {});
+    entry->second.omega[k] = solution.velocity[0].omega;
+    entry->second.stresslet[k] = system.stresslets(solution.density, {})[0];
+  }
+  return entry->second;
+}
+
+double ShapeResolution::error(const Shape& shape, int points) {
+  const double aspect = shape.inradius() / shape.circumradius();
+  if (aspect == 1.0) return 0.0;  // exact with any number
+  const Alone &a = alone(aspect, points), &b = alone(aspect, next_points(points));
+  double largest = 0.0;
+  for (int k = 0; k < 2; ++k)
+    largest = std::max({largest, std::abs(a.omega[k] - b.omega[k]), std::abs(a.stresslet[k] - b.stresslet[k])});
+  return largest;
+}
+
+int ShapeResolution::points(const Shape& shape, double tolerance) {
+  int n = 16;
+  while (n < most_points && error(shape, n) > tolerance) n = next_points(n);
+  return n;
+}
+
+int close_upsampling(const Shape& shape, const Discretisation& nodes, double tolerance) {
+  constexpr int most = 8;
+  int factor = 2;
+  for (; factor < most; ++factor) {
+    const Curve fine = shape.curve(nodes, factor);
+    const ComplexVector modes = fourier_coefficients(fine.derivative.conjugate().cwiseQuotient(fine.derivative));
+    const Eigen::Index size = fine.size(), first = (factor - 1) * static_cast<Eigen::Index>(nodes.size()) / 2;
+    if (modes.segment(first, size - 2 * first + 1).cwiseAbs().maxCoeff() < tolerance) break;
+  }
+  return factor;
+}
+
+int ResolvedSystem::clusters() const {
+  int count = 0;
+  for (const Discretisation& d : nodes) count += static_cast<int>(d.clusters.size());
+  return count;
+}
+
+int ResolvedSystem::most_nodes() const {
+  int most = 0;
+  for (const Discretisation& d : nodes) most = std::max(most, d.size());
+  return most;
+}
+
+namespace {
+
+// Nodes, their close evaluation, and the tolerance of the solver.
+struct Choice {
+  std::vector<Discretisation> nodes;
+  double gmres_tolerance, least_gap;
+};
+
+Choice choice(const Suspension& bodies, const std::vector<Shape>& shapes, const std::vector<Resolution>& resolution,
+              double accuracy) {
+  auto [nodes, relative_gap] = clustered_nodes(bodies, resolution, accuracy);
+  double least = 2.0;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    least = std::min(least, relative_gap[i]);
+    const bool disc = shapes[i].a == shapes[i].b;
+    const double tolerance = nodes[i].clusters.empty() ? 0.1 * std::sqrt(accuracy) : accuracy * half_gap_root(relative_gap[i]);
+    nodes[i].upsampling = disc ? 2 : close_upsampling(shapes[i], nodes[i], std::max(tolerance, 1e-13));
+  }
+  return {std::move(nodes), std::max(accuracy * half_gap_root(least), 1e-12), least};
+}
+
+// Half as many again.
+void add_nodes(Resolution& r) {
+  r.points = std::min(most_points, 2 * static_cast<int>(std::ceil(0.75 * r.points)));
+  r.factor *= 1.5;
+}
+
+}  // namespace
+
+ResolvedSystem solve_to_accuracy(const ResolvedProblem& problem, double accuracy, StokesOptions options, ShapeCache& shapes,
+                                 ShapeResolution& alone, std::vector<Resolution>& resolution) {
+  constexpr int most_solves = 4;
+  const std::vector<Shape> forms = shapes_of(problem.bodies);
+  if (resolution.empty())
+    for (const Shape& form : forms) resolution.push_back({alone.points(form, accuracy)});
+  ResolvedSystem result;
+  int iterations = 0;
+  for (;;) {
+    Choice chosen = choice(problem.bodies, forms, resolution, accuracy);
+    options.gmres_tolerance = chosen.gmres_tolerance;
+    ComplexVector guess;
+    if (result.solves > 0)
+      guess = move_densities(result.solution.density, result.nodes, chosen.nodes);
+    else if (problem.guess)
+      guess = problem.guess(chosen.nodes);
+    result.nodes = std::move(chosen.nodes);
+    result.system = std::make_unique<StokesSystem>(problem.bodies, result.nodes, shapes, options);
+    result.solution = result.system->solve(problem.flow, problem.wrenches, guess);
+    iterations += result.solution.iterations;
+    ++result.solves;
+    // What data of round-off do to the velocities.
+    result.error = 1e-13 / half_gap_root(chosen.least_gap);
+    result.unresolved.clear();
+    const std::vector<double> tails = result.system->density_tails(result.solution.density);
+    for (std::size_t i = 0; i < tails.size(); ++i) {
+      const double error = 100.0 * tails[i] * tails[i];
+      result.error = std::max(result.error, error);
+      if (error > accuracy) result.unresolved.push_back(static_cast<int>(i));
+    }
+    if (result.unresolved.empty() || result.solves == most_solves) break;
+    for (const int i : result.unresolved) add_nodes(resolution[i]);
+  }
+  result.solution.iterations = iterations;
+  return result;
+}
+
+}  // namespace stokes
