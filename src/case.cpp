@@ -16,6 +16,8 @@ namespace {
 // Keys on which no result depends.
 constexpr std::string_view without_effect[] = {"threads", "output", "overwrite", "checkpoint_every"};
 
+constexpr double standard_accuracy = 1e-4;  // without points_per_body
+
 std::vector<std::string> key_names() {
   std::vector<std::string> names;
   for (const CaseKey& key : case_keys()) names.push_back(key.name);
@@ -149,6 +151,25 @@ void check_geometry(const Case& c, const Limit& limit) {
   limit(c.wall_points <= 65536, "wall_points", "is above 65536; try 1024.");
 }
 
+// Nodes by an accuracy, or fixed ones.
+void check_resolution(const Case& c, const Limit& limit) {
+  if (!c.accuracy) {
+    limit(c.points_per_body >= 8, "points_per_body", "is below 8; try 32.");
+    limit(c.points_per_body % 2 == 0, "points_per_body", "is odd; it must be even, try one more.");
+    // The block of one shape would need more than 100 GB.
+    limit(c.points_per_body <= 65536, "points_per_body", "is above 65536; try 1024.");
+    return;
+  }
+  limit(*c.accuracy >= 1e-11 && *c.accuracy <= 0.1, "accuracy", "must be between 1e-11 and 0.1; try 1e-4.");
+  for (const char* key : {"points_per_body", "wall_points", "refine", "gmres_tolerance"})
+    limit(!limit.given.contains(key), key, concat("is chosen by accuracy = ", *c.accuracy, "; keep one of them."));
+  limit(c.coupling == Coupling::global, "coupling", "needs fixed nodes; give points_per_body instead of accuracy.");
+  limit(c.near_singular == NearSingular::cauchy, "near_singular", "needs fixed nodes; give points_per_body instead of accuracy.");
+  limit(c.min_separation == 0.0, "min_separation", "is in units of points_per_body; give min_separation_length.");
+  limit(c.contact != ContactModel::stiv || c.stiv_vertices > 0, "contact",
+        "has 4 vertices for each of points_per_body; give stiv_vertices, too.");
+}
+
 void check_output(const Case& c, const Limit& limit) {
   limit(c.output_every >= 1, "output_every", "must be at least 1, which writes every step.");
   std::string obstacle = why_not_writable(c.output);
@@ -182,10 +203,7 @@ void check_separation(const Case& c, const Limit& limit) {
 void check_case(Case& c, const GivenKeys& given) {
   const Limit limit{given};
   check_geometry(c, limit);
-  limit(c.points_per_body >= 8, "points_per_body", "is below 8; try 32.");
-  limit(c.points_per_body % 2 == 0, "points_per_body", "is odd; it must be even, try one more.");
-  // The block of one shape would need more than 100 GB.
-  limit(c.points_per_body <= 65536, "points_per_body", "is above 65536; try 1024.");
+  check_resolution(c, limit);
   limit(c.time_step > 0.0, "time_step", "must be greater than 0; a flow backwards has a negative rate.");
   limit(c.end_time > 0.0, "end_time", "must be greater than 0; a flow backwards has a negative rate.");
   // Steps are counted by an int.
@@ -233,6 +251,7 @@ Case parse_case(std::string_view content, const std::filesystem::path& file, con
          "; add a line `key = value` for each of: ", join(missing, ", "), ".");
   }
   for (const CaseKey& key : case_keys()) set(key);
+  if (!given.contains("points_per_body") && !result.accuracy) result.accuracy = standard_accuracy;
   check_case(result, given);
   return result;
 }
@@ -271,6 +290,7 @@ Suspension parse_suspension(const Case& parameters, std::string_view content) {
 
 double separation_length(const Case& parameters, const Suspension& bodies) {
   if (parameters.min_separation_length) return *parameters.min_separation_length;
+  if (parameters.min_separation == 0.0) return 0.0;
   double longest = 0.0;
   for (const Body& body : bodies)
     if (body.points == 0) longest = std::max(longest, body.shape.perimeter());
@@ -283,6 +303,9 @@ Comments describe(const Case& parameters) {
     if (std::find(std::begin(without_effect), std::end(without_effect), key.name) != std::end(without_effect)) continue;
     if (key.idle_for(parameters)) continue;
     if (key.name == "min_separation" && parameters.min_separation_length) continue;
+    const bool of_fixed_nodes = key.name == "points_per_body" || key.name == "wall_points" || key.name == "refine" ||
+                                key.name == "gmres_tolerance";
+    if (parameters.accuracy ? of_fixed_nodes : key.name == "accuracy") continue;
     lines.emplace_back(key.name, key.get(parameters));
   }
   return lines;

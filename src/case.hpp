@@ -29,7 +29,7 @@ struct Case {
   // Required.
   std::string bodies;             // CSV of the bodies, as written: see bodies_path()
   FlowKind flow = FlowKind::none;  // in an annulus not required, and none
-  int points_per_body = 0;        // even, at least 8
+  int points_per_body = 0;        // even, at least 8; 0: none, with an accuracy
   double time_step = 0.0;         // time
   double end_time = 0.0;          // time
   std::string output;             // folder, relative to the working directory
@@ -56,6 +56,7 @@ struct Case {
   int stiv_vertices = 0;                        // 0: 4 points_per_body
   StivGradient stiv_gradient = StivGradient::full;
   NearSingular near_singular = NearSingular::cauchy;
+  std::optional<double> accuracy;               // of velocities, in units of rate and size; chooses nodes and tolerances
   double gmres_tolerance = 1e-8;                // relative true residual
   Refine refine = Refine::none;
   Summation summation = Summation::automatic;

@@ -208,7 +208,6 @@ const std::vector<CaseKey>& case_keys() {
                "background: shear (rate y, 0), extension rate (x, -y), taylor_green rate (cos x sin y, -sin x cos y); "
                "none in an annulus",
                Needed::unbounded),
-      required("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8"),
       required("time_step", &Case::time_step, "length of a step, time"),
       required("end_time", &Case::end_time, "when to stop, time"),
       required("output", &Case::output, "folder of the results, relative to the working directory"),
@@ -221,6 +220,10 @@ const std::vector<CaseKey>& case_keys() {
       in_annulus(optional("injection_rate", &Case::injection_rate, "through both walls, outwards, area/time")),
       where({"flow", [](const Case& c) { return c.flow != FlowKind::none; }, "does nothing with flow = none; leave it out."},
             in_unbounded(optional("rate", &Case::rate, "of the flow, 1/time; may be negative"))),
+      optional("accuracy", &Case::accuracy, "none",
+               "of the bodies' velocities, in units of the rate and size of what drives them: chooses the nodes of bodies and "
+               "walls and the tolerance of the solver at every step; 1e-4 without points_per_body"),
+      optional("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8; 0: chosen by accuracy"),
       optional("reverse_at", &Case::reverse_at, "none", "time from which every driving is reversed"),
       with_contact(optional("min_separation", &Case::min_separation,
                             "in units of h = longest perimeter of a body / points_per_body")),

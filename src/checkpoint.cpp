@@ -148,6 +148,9 @@ void write_memory(Writer& writer, const StepperMemory& memory) {
   writer.line("memory", memory.path, memory.background.size(), memory.contacts.size());
   for (const StepperMemory::Density& density : memory.background) write_density(writer, density);
   write_density(writer, memory.total);
+  std::vector<double> resolution;
+  for (const Resolution& r : memory.resolution) resolution.insert(resolution.end(), {static_cast<double>(r.points), r.factor});
+  writer.line("resolution", resolution);
   writer.line("known", memory.known.contacts.size(), memory.answers.size());
   for (const KnownContacts::Contact& c : memory.known.contacts) writer.line("contact", c.a, c.b, c.region);
   writer.line("rates", std::vector<double>(memory.known.rates.reshaped().begin(), memory.known.rates.reshaped().end()));
@@ -168,6 +171,9 @@ StepperMemory read_memory(Reader& reader) {
   const auto contacts = reader.integer<std::size_t>();
   for (StepperMemory::Density& density : memory.background) density = read_density(reader);
   memory.total = read_density(reader);
+  const std::vector<double> resolution = reader.numbers("resolution");
+  for (std::size_t k = 0; k + 1 < resolution.size(); k += 2)
+    memory.resolution.push_back({static_cast<int>(resolution[k]), resolution[k + 1]});
   reader.begin("known");
   memory.known.contacts.resize(reader.integer<std::size_t>());
   memory.answers.resize(reader.integer<std::size_t>());

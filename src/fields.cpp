@@ -44,14 +44,21 @@ GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, d
     grid.wrenches.push_back({bodies[i].force + more.force, bodies[i].torque + more.torque});
   }
   ShapeCache shapes(options.near_singular);
-  const std::vector<Discretisation> nodes = options.refine == Refine::near
-                                                ? refined_nodes(bodies, options.points_per_body, near_tolerance)
-                                                : equal_nodes(bodies, options.points_per_body);
-  const StokesSystem system(bodies, nodes, shapes, options.stokes);
   const BackgroundFlow flow{options.flow.kind, driving * options.flow.rate, driving};
-  const StokesSolution solution = system.solve(flow, grid.wrenches);
+  ResolvedSystem resolved;
+  if (options.accuracy > 0.0) {
+    ShapeResolution alone;
+    std::vector<Resolution> resolution;
+    resolved = solve_to_accuracy({bodies, flow, grid.wrenches, {}}, options.accuracy, options.stokes, shapes, alone, resolution);
+  } else {
+    const std::vector<Discretisation> nodes = options.refine == Refine::near
+                                                  ? refined_nodes(bodies, options.points_per_body, near_tolerance)
+                                                  : equal_nodes(bodies, options.points_per_body);
+    resolved.system = std::make_unique<StokesSystem>(bodies, nodes, shapes, options.stokes);
+    resolved.solution = resolved.system->solve(flow, grid.wrenches);
+  }
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].fixed) grid.wrenches[i] = solution.reaction[i];
+    if (bodies[i].fixed) grid.wrenches[i] = resolved.solution.reaction[i];
 
   std::vector<Complex> fluid;
   for (int j = 0; j < points; ++j)
@@ -60,7 +67,7 @@ GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, d
       grid.points.push_back({x, !in_fluid(bodies, x), {}});
       if (!grid.points.back().inside) fluid.push_back(x);
     }
-  const std::vector<PointFlow> flows = system.flow(fluid, solution.density, flow, grid.wrenches);
+  const std::vector<PointFlow> flows = resolved.system->flow(fluid, resolved.solution.density, flow, grid.wrenches);
   std::size_t next = 0;
   for (GridPoint& point : grid.points)
     if (!point.inside) point.flow = flows[next++];

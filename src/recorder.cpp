@@ -44,6 +44,11 @@ constexpr Column steps_table[] = {
     {"stokes_solves", "Stokes problems solved"},
     {"smallest_multiplier", "of the contacts: a force, or with contact = stiv the factor of a volume's gradient"},
     {"largest_multiplier", "of the contacts"},
+    {"estimated_error", "of the velocities, in units of the rate and size of what drives them, with an accuracy"},
+    {"nodes", "of all boundaries"},
+    {"clusters", "places of boundaries that nodes are drawn to"},
+    {"most_nodes", "of one boundary"},
+    {"unresolved", "boundaries that do not keep the accuracy; of fixed nodes, pairs and bodies that they do not resolve"},
 };
 constexpr Column walls_table[] = {
     {"inner_torque", "of the inner wall on the fluid about its centre"},
@@ -200,7 +205,10 @@ void Recorder::write(const StepRecord& record) {
       smallest = std::fmin(smallest, c.multiplier), largest = std::fmax(largest, c.multiplier);
     for (double value : {outcome->dt, static_cast<double>(outcome->gmres_iterations),
                          static_cast<double>(outcome->ncp_iterations), contact_count(*outcome), record.min_gap,
-                         outcome->density_tail, static_cast<double>(outcome->stokes_solves), smallest, largest})
+                         outcome->density_tail, static_cast<double>(outcome->stokes_solves), smallest, largest,
+                         outcome->estimated_error, static_cast<double>(outcome->nodes),
+                         static_cast<double>(outcome->clusters), static_cast<double>(outcome->most_nodes),
+                         static_cast<double>(outcome->unresolved)})
       summary.push_back(value);
     if (columns_ == StepsColumns::between_walls) {
       const ParticleStress stress = particle_stress(record.bodies, *outcome);

@@ -23,8 +23,10 @@ const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 //   it; every `output_every`-th step, the first and the last; the final configuration is one more step
 //   whose other fields are empty. Walls are no bodies of it.
 // steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,
-//            smallest_multiplier,largest_multiplier
-//   A row for every step and one for the final configuration. The multipliers are those of the step's contacts, empty
+//            smallest_multiplier,largest_multiplier,estimated_error,nodes,clusters,most_nodes,unresolved
+//   A row for every step and one for the final configuration. The estimated error is that of the velocities with an
+//   accuracy (resolution.hpp), which `unresolved` boundaries do not keep; nodes and clusters are those of all boundaries,
+//   most_nodes those of one. The multipliers are those of the step's contacts, empty
 //   without any: forces, or, with interference volumes, factors of the volumes' gradients. Between walls there are more
 //   columns: inner_torque and outer_torque, of the inner wall and of the container on the fluid, about
 //   their centres; and order_parameter, effective_viscosity, stresslet_shear, stresslet_normal_difference,

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "facing.hpp"
-#include "neighbours.hpp"
+#include "fronts.hpp"
 
 namespace stokes {
 
@@ -13,16 +12,8 @@ namespace {
 // Of the mobility across a gap.
 constexpr double largest_mobility_error = 0.1;
 
-// A boundary in front of another.
-struct Front {
-  int boundary;  // bodies, then the container
-  double alpha;  // of its nearest point
-  double width;  // W
-  double gap, curvature;
-
-  // Across the gap, of the lubrication between the two curvatures.
-  double mobility() const { return std::pow(std::max(gap * curvature, 0.0), 1.5) / (3.0 * std::sqrt(2.0) * pi); }
-};
+// Across the gap, of the lubrication between the two curvatures.
+double mobility(const Front& f) { return std::pow(std::max(f.gap * f.curvature, 0.0), 1.5) / (3.0 * std::sqrt(2.0) * pi); }
 
 // The error of the mobility of an ellipse with N nodes at equal steps, as measured at a wall along a flank.
 double mobility_error(const Shape& shape, int points) {
@@ -31,35 +22,6 @@ double mobility_error(const Shape& shape, int points) {
 
 // Of a body with nodes of its own, those stay.
 bool has_own_nodes(const Body& body) { return body.points > 0; }
-
-// Every boundary that is within its reach of another, either way round.
-std::vector<Front> fronts(const Suspension& bodies, const std::vector<double>& reach) {
-  std::vector<Complex> centres;
-  std::vector<double> radii;
-  for (const Body& body : bodies) {
-    centres.push_back(body.pose.centre);
-    radii.push_back(body.shape.circumradius());
-  }
-  std::vector<Front> result;
-  const auto add = [&](int i, int j, const Body& a, const auto& b) {
-    const Facing f = facing(a, b);
-    if (f.gap > std::max(reach[i], reach[j])) return;
-    const double width = contact_width(f, a, b);
-    if (f.gap <= reach[i]) result.push_back({i, f.alpha_a, width, f.gap, f.curvature()});
-    if (f.gap <= reach[j]) result.push_back({j, f.alpha_b, width, f.gap, f.curvature()});
-  };
-  const int count = static_cast<int>(bodies.size());
-  const double farthest = count == 0 ? 0.0 : *std::max_element(reach.begin(), reach.begin() + count);
-  for (const auto& [i, j] : neighbour_pairs(centres, centres, radii, farthest))
-    if (std::abs(centres[i] - centres[j]) - radii[i] - radii[j] <= std::max(reach[i], reach[j]))
-      add(i, j, bodies[i], bodies[j]);
-  if (!bodies.container) return result;
-  const Container& wall = *bodies.container;
-  for (int i = 0; i < count; ++i)
-    if (wall.radius - std::abs(centres[i] - wall.centre) - radii[i] <= std::max(reach[i], reach[count]))
-      add(i, count, bodies[i], wall);
-  return result;
-}
 
 // Beyond, W >= gap is wide enough for the equal steps.
 double cluster_reach(const Shape& shape, int points, double tolerance) {
@@ -102,16 +64,16 @@ std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, 
   for (const Body& body : bodies) {
     // Beyond, even the mobility along two flanks exceeds the error.
     const double flank = std::pow(body.shape.circumradius(), 2) / body.shape.inradius();
-    const double mobility = mobility_error(body.shape, points) / largest_mobility_error;
+    const double least = mobility_error(body.shape, points) / largest_mobility_error;
     reach.push_back(has_own_nodes(body) ? -1.0
                                         : std::max(cluster_reach(body.shape, points, tolerance),
-                                                   flank * std::pow(3.0 * std::sqrt(2.0) * pi * mobility, 2.0 / 3.0)));
+                                                   flank * std::pow(3.0 * std::sqrt(2.0) * pi * least, 2.0 / 3.0)));
   }
   reach.push_back(-1.0);  // the container
   const std::vector<Front> close = fronts(bodies, reach);
   for (const Front& f : close)
     while (nodes[f.boundary].points < 4 * points &&
-           mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) > largest_mobility_error * f.mobility())
+           mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) > largest_mobility_error * mobility(f))
       nodes[f.boundary].points *= 2;
   for (const Front& f : close) add_cluster(bodies[f.boundary].shape, f, 1.0, tolerance, nodes[f.boundary]);
   for (Discretisation& d : nodes) merge(d.clusters);
@@ -119,9 +81,7 @@ std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, 
 }
 
 ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance) {
-  std::vector<Shape> shapes;
-  for (const Body& body : bodies) shapes.push_back(body.shape);
-  if (bodies.container) shapes.push_back(wall_shape(*bodies.container));
+  const std::vector<Shape> shapes = boundary_shapes(bodies);
   ClusteredNodes result;
   auto& nodes = result.nodes;
   result.relative_gap.assign(shapes.size(), 2.0);

@@ -23,7 +23,7 @@ inline constexpr int most_points = 1024;  // of a boundary
 // What a body alone asks for, found once for each form.
 class ShapeResolution {
  public:
-  // The first N of 16, 24, 32, 48, ... 1024 that gives the angular velocity and the stresslet of the body in shear at two
+  // The first N of 24, 32, 48, 64, ... 1024 that gives the angular velocity and the stresslet of the body in shear at two
   // angles, in units of its size, as the next one does, to the tolerance.
   int points(const Shape& shape, double tolerance);
   // By how much N points miss them.
@@ -63,8 +63,9 @@ struct ResolvedProblem {
   std::function<ComplexVector(const std::vector<Discretisation>&)> guess;
 };
 
-// With options.gmres_tolerance replaced by accuracy sqrt(g kappa / 2), at most accuracy and at least 1e-12, of the
-// smallest relative gap g kappa. `resolution`: of the boundaries, what an earlier solution ended with; empty: from their
+// With options.gmres_tolerance replaced by accuracy sqrt(G/2), G = g kappa being the smallest relative gap, at most accuracy
+// and at least 1e-12 and the round-off 2e-15/sqrt(G/2) of the equations. That is 4e-15/G in the velocities, the least
+// estimated error. `resolution`: of the boundaries, what an earlier solution ended with; empty: from their
 // shapes. It is changed to what was needed. The result does not depend on the number of threads.
 ResolvedSystem solve_to_accuracy(const ResolvedProblem& problem, double accuracy, StokesOptions options, ShapeCache& shapes,
                                  ShapeResolution& alone, std::vector<Resolution>& resolution);

@@ -167,20 +167,49 @@ Beginning beginning(const Case& c, const Suspension& bodies, const CheckpointFil
   return result;
 }
 
-// Warns of densities that the nodes do not resolve.
-bool is_resolved(const StepRecord& record, Progress& progress) {
-  if (!record.outcome || record.outcome->density_tail <= resolved_tail) return true;
-  progress.message(concat("warning: at time ", record.time, " the top third of the Fourier modes holds ",
-                          brief(record.outcome->density_tail), " of a density's energy (more than ", resolved_tail,
-                          "); more points_per_body would resolve it"));
-  return false;
-}
+// Warns of what the nodes do not resolve: the first time, and at the end.
+class ResolutionWarnings {
+ public:
+  ResolutionWarnings(bool by_accuracy, Progress& progress) : by_accuracy_(by_accuracy), progress_(progress) {}
+
+  void observe(const StepRecord& record) {
+    if (!record.outcome) return;
+    const StepOutcome& step = *record.outcome;
+    const auto warn = [&](const auto&... parts) { progress_.message(concat("warning: at time ", record.time, " ", parts...)); };
+    if (step.unresolved > 0 && unresolved_steps_++ == 0 && by_accuracy_)
+      warn(step.unresolved, " boundaries do not keep the accuracy; the estimated error is ", brief(step.estimated_error));
+    if (!step.shortfalls.empty()) {
+      const Shortfall& largest = step.shortfalls[0];
+      if (!worst_) warn(describe(largest));
+      if (!worst_ || largest.error > worst_->error) worst_ = largest;
+    }
+    if (!warned_of_tail_ && step.density_tail > resolved_tail) {
+      warned_of_tail_ = true;
+      warn("the top third of the Fourier modes holds ", brief(step.density_tail), " of a density's energy (more than ",
+           resolved_tail, "); more points_per_body would resolve it");
+    }
+  }
+
+  void conclude() const {
+    if (unresolved_steps_ == 0) return;
+    progress_.message(concat("warning: ", unresolved_steps_, " steps were not resolved",
+                             worst_ ? concat("; in the worst of them ", describe(*worst_)) : std::string()));
+  }
+
+ private:
+  bool by_accuracy_;
+  Progress& progress_;
+  bool warned_of_tail_ = false;
+  long unresolved_steps_ = 0;
+  std::optional<Shortfall> worst_;
+};
 
 }  // namespace
 
 SimulationOptions options_of(const Case& c, const Suspension& bodies) {
   SimulationOptions options;
   options.stepper.flow = {c.flow, c.rate};
+  options.stepper.accuracy = c.accuracy.value_or(0.0);
   options.stepper.points_per_body = c.points_per_body;
   options.stepper.refine = c.refine;
   options.stepper.stokes.gmres_tolerance = c.gmres_tolerance;
@@ -237,19 +266,20 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
                                   checkpoints.save_after_write_error()));
     }
   };
-  bool resolved = true;
+  ResolutionWarnings resolution(c.accuracy.has_value(), progress);
   RunSummary summary;
   try {
     summary = simulate(bodies, options, [&](const StepRecord& record) {
       write(record);
       progress.show(record);
-      if (resolved) resolved = is_resolved(record, progress);
+      resolution.observe(record);
     });
   } catch (const Interruption& end) {
     throw Interruption{end.signal, checkpoints.interruption()};
   }
   recorder.close();
   file.remove();
+  resolution.conclude();
   return summary;
 }
 

@@ -58,15 +58,6 @@ int Stepper::shape_count() const {
   return static_cast<int>(distinct.size());
 }
 
-Stepper::Configuration::Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes,
-                                      double driving_)
-    : driving(driving_),
-      nodes(options.refine == Refine::near ? refined_nodes(bodies, options.points_per_body, near_tolerance)
-                                           : equal_nodes(bodies, options.points_per_body)),
-      system(bodies, nodes, shapes, options.stokes) {
-  if (bodies.container) nodes.push_back({bodies.container->points, {}});
-}
-
 BackgroundFlow Stepper::driven(double driving) const {
   return {options_.flow.kind, driving * options_.flow.rate, driving};
 }
@@ -74,42 +65,70 @@ BackgroundFlow Stepper::driven(double driving) const {
 // Polynomial through the densities of a history, in the path through configurations: with it the flow may turn back,
 // and the first step back starts from what was there. Densities live in the body frames, so they are already turned
 // with their bodies.
-ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& history, const Configuration& now) const {
+ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& history,
+                                    const std::vector<Discretisation>& nodes) const {
   std::vector<const StepperMemory::Density*> known;
   for (auto d = history.rbegin(); d != history.rend(); ++d) {
     const auto close = [&d](const auto* k) { return std::abs(k->path - d->path) <= 1e-9 * std::abs(d->path); };
     if (std::none_of(known.begin(), known.end(), close)) known.push_back(&*d);
   }
-  ComplexVector guess = ComplexVector::Zero(now.system.node_count());
+  int count = 0;
+  for (const Discretisation& d : nodes) count += d.size();
+  ComplexVector guess = ComplexVector::Zero(count);
   for (const auto* d : known) {
     double weight = 1.0;
     for (const auto* other : known)
       if (other != d) weight *= (memory_.path - other->path) / (d->path - other->path);
-    guess += weight * moved(*d, now.nodes);
+    guess += weight * moved(*d, nodes);
   }
   return guess;
 }
 
 Stepper::Configuration& Stepper::configuration(double driving) {
   if (now_ && now_->driving == driving) return *now_;
-  now_.emplace(bodies_, options_, shapes_, driving);
+  now_.emplace();
+  now_->driving = driving;
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   StokesSolution solution;
   try {
-    solution = options_.coupling == Coupling::local && memory_.total.value.size() > 0
-                   ? now_->system.sweep(driven(driving), external, moved(memory_.total, now_->nodes))
-                   : now_->system.solve(driven(driving), external, driving * extrapolated(memory_.background, *now_));
+    solution = solve_contact_free(*now_, external);
   } catch (...) {
     now_.reset();  // a configuration without its velocities is none
     throw;
   }
-  now_->gmres_iterations = solution.iterations;
-  now_->background_iterations = solution.iterations;
-  now_->stokes_solves = 1;
+  now_->gmres_iterations = now_->background_iterations = solution.iterations;
   now_->data_norm = solution.data_norm;
   now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
   return *now_;
+}
+
+// Makes the system, too.
+StokesSolution Stepper::solve_contact_free(Configuration& now, const std::vector<Wrench>& external) {
+  const auto guess = [&](const std::vector<Discretisation>& nodes) {
+    return ComplexVector(now.driving * extrapolated(memory_.background, nodes));
+  };
+  if (options_.accuracy > 0.0) {
+    now.resolution = memory_.resolution;
+    ResolvedSystem resolved = solve_to_accuracy({bodies_, driven(now.driving), external, guess}, options_.accuracy,
+                                                options_.stokes, shapes_, alone_, now.resolution);
+    now.nodes = std::move(resolved.nodes);
+    now.system = std::move(resolved.system);
+    now.estimated_error = resolved.error;
+    now.unresolved = static_cast<int>(resolved.unresolved.size());
+    now.stokes_solves = resolved.solves;
+    return std::move(resolved.solution);
+  }
+  now.nodes = options_.refine == Refine::near ? refined_nodes(bodies_, options_.points_per_body, near_tolerance)
+                                              : equal_nodes(bodies_, options_.points_per_body);
+  if (bodies_.container) now.nodes.push_back({bodies_.container->points, {}});
+  now.shortfalls = shortfalls(bodies_, now.nodes, alone_);
+  now.unresolved = static_cast<int>(now.shortfalls.size());
+  now.system = std::make_unique<StokesSystem>(bodies_, now.nodes, shapes_, options_.stokes);
+  now.stokes_solves = 1;
+  if (options_.coupling == Coupling::local && memory_.total.value.size() > 0)
+    return now.system->sweep(driven(now.driving), external, moved(memory_.total, now.nodes));
+  return now.system->solve(driven(now.driving), external, guess(now.nodes));
 }
 
 void Stepper::restore(const std::vector<Pose>& poses, StepperMemory memory) {
@@ -123,7 +142,7 @@ Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenche
                           double scale) {
   for (const auto& [known, response] : now.answers)
     if (same(known, wrenches)) return response;
-  StokesSolution solution = now.system.solve({}, wrenches, guess, scale);
+  StokesSolution solution = now.system->solve({}, wrenches, guess, scale);
   now.gmres_iterations += solution.iterations;
   ++now.stokes_solves;
   now.answers.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
@@ -137,17 +156,17 @@ Response Stepper::respond_to_contact(Configuration& now, const std::vector<Wrenc
   if (const auto latest = std::find_if(now.answers.rbegin(), now.answers.rend(), same_ends); latest != now.answers.rend())
     return respond(now, wrenches, latest->second.density);
   const auto past = memory_.contacts.find(ends);
-  return respond(now, wrenches, past == memory_.contacts.end() ? ComplexVector() : extrapolated(past->second, now));
+  return respond(now, wrenches, past == memory_.contacts.end() ? ComplexVector() : extrapolated(past->second, now.nodes));
 }
 
 Response Stepper::respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const {
-  StokesSolution solution = now.system.solve_nearby(wrenches, column_tolerance);
+  StokesSolution solution = now.system->solve_nearby(wrenches, column_tolerance);
   return {std::move(solution.velocity), std::move(solution.density)};
 }
 
 // No body feels the forces on another; the densities answer a rigid motion with nothing.
 Response Stepper::respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const {
-  Response response{{}, ComplexVector::Zero(now.system.node_count())};
+  Response response{{}, ComplexVector::Zero(now.system->node_count())};
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     response.velocity.push_back(completion_trace(bodies_[i].shape, bodies_[i].pose, wrenches[i]));
   return response;
@@ -258,6 +277,7 @@ void Stepper::remember(Configuration& now, ComplexVector total, KnownContacts kn
     forget_contacts();
   }
   memory_.total = {memory_.path, now.nodes, std::move(total)};
+  memory_.resolution = now.resolution;
 }
 
 // `way`: driving times the length of the step just made.
@@ -272,13 +292,21 @@ void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutco
   outcome.contacts = std::move(result.contacts);
   outcome.contact_wrench = std::move(result.wrenches);
   outcome.container_contact = result.container_wrench;
-  outcome.reaction = now.system.reactions(result.motion.density);
+  outcome.reaction = now.system->reactions(result.motion.density);
   std::vector<Wrench> wrenches = outcome.contact_wrench;
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     wrenches[i].force += bodies_[i].force, wrenches[i].torque += bodies_[i].torque;
-  outcome.container = now.system.container_wrench(result.motion.density, wrenches);
-  outcome.stresslets = now.system.stresslets(result.motion.density, wrenches);
-  outcome.density_tail = now.system.density_tail(result.motion.density);
+  outcome.container = now.system->container_wrench(result.motion.density, wrenches);
+  outcome.stresslets = now.system->stresslets(result.motion.density, wrenches);
+  outcome.density_tail = now.system->density_tail(result.motion.density);
+  outcome.estimated_error = now.estimated_error;
+  outcome.unresolved = now.unresolved;
+  outcome.shortfalls = now.shortfalls;
+  for (const Discretisation& d : now.nodes) {
+    outcome.nodes += d.size();
+    outcome.clusters += static_cast<int>(d.clusters.size());
+    outcome.most_nodes = std::max(outcome.most_nodes, d.size());
+  }
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
   remember(now, std::move(result.motion.density), std::move(result.known));

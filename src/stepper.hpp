@@ -12,7 +12,8 @@
 #include "contact.hpp"
 #include "flow.hpp"
 #include "ncp.hpp"
-#include "refinement.hpp"
+#include "resolution.hpp"
+#include "shortfall.hpp"
 #include "stiv.hpp"
 #include "stokes_system.hpp"
 
@@ -36,6 +37,10 @@ enum class LcpMatrix {
 
 struct StepperOptions {
   BackgroundFlow flow;
+  // Of the bodies' velocities, in units of the rate and size of what drives them. Nodes, clusters and tolerances are then
+  // chosen at every configuration, and points_per_body, refine, Container::points, Body::points and
+  // stokes.gmres_tolerance are not read. 0: these are.
+  double accuracy = 0.0;
   int points_per_body = 32;
   Refine refine = Refine::none;
   StokesOptions stokes;
@@ -65,6 +70,11 @@ struct StepOutcome {
   Wrench container;                    // of the container on the fluid, about its centre
   std::vector<Complex> stresslets;     // of the bodies, S_11 + i S_12 about their centres
   double density_tail = 0.0;
+  double estimated_error = 0.0;  // of the velocities, with an accuracy
+  int nodes = 0, clusters = 0;   // of all boundaries
+  int most_nodes = 0;            // of a boundary
+  int unresolved = 0;            // boundaries; of fixed nodes, the shortfalls
+  std::vector<Shortfall> shortfalls;  // of fixed nodes
 };
 
 // What a step leaves to later ones beside the bodies: densities, in the body frames, from which the next solve
@@ -82,6 +92,7 @@ struct StepperMemory {
   std::vector<Density> answers;     // those of known.multipliers, of contact forces alone
   // Answers to unit forces between the bodies that were in contact in the latest step, newest last.
   std::map<std::pair<int, int>, std::vector<Density>> contacts;
+  std::vector<Resolution> resolution;  // of the boundaries, with an accuracy
 };
 
 class Stepper {
@@ -110,19 +121,22 @@ class Stepper {
  private:
   // What is known of the current configuration.
   struct Configuration {
-    Configuration(const Suspension& bodies, const StepperOptions& options, ShapeCache& shapes, double driving_);
-
-    double driving;
-    std::vector<Discretisation> nodes;
-    StokesSystem system;
+    double driving = 1.0;
+    std::vector<Discretisation> nodes;  // of the bodies and the container
+    std::unique_ptr<StokesSystem> system;
     Response contact_free;
+    std::vector<Resolution> resolution;
+    double estimated_error = 0.0;
+    int unresolved = 0;
+    std::vector<Shortfall> shortfalls;
     double data_norm = 0.0;  // of its right-hand side
     int gmres_iterations = 0, background_iterations = 0, ncp_iterations = 0, stokes_solves = 0;
     std::vector<std::pair<std::vector<Wrench>, Response>> answers;  // to forces and torques
   };
   Configuration& configuration(double driving);
   BackgroundFlow driven(double driving) const;
-  ComplexVector extrapolated(const std::vector<StepperMemory::Density>& history, const Configuration& now) const;
+  StokesSolution solve_contact_free(Configuration& now, const std::vector<Wrench>& external);
+  ComplexVector extrapolated(const std::vector<StepperMemory::Density>& history, const std::vector<Discretisation>& nodes) const;
   Response respond(Configuration& now, const std::vector<Wrench>& wrenches, const ComplexVector& guess,
                    double scale = 0.0);
   Response respond_to_contact(Configuration& now, const std::vector<Wrench>& wrenches);
@@ -139,6 +153,7 @@ class Stepper {
   Suspension bodies_;
   StepperOptions options_;
   ShapeCache shapes_;
+  ShapeResolution alone_;
   std::optional<Configuration> now_;
   StepperMemory memory_;
 };

@@ -178,11 +178,11 @@ TEST_CASE("a wrong argument is refused and named") {
 TEST_CASE("a case without its required keys names every missing one") {
   CHECK_CONTAINS(case_refusal("flow = shear\nend_time = 1\n"),
                  "case.txt:2: the case is not complete; add a line `key = value` for each of: bodies, "
-                 "points_per_body, time_step, output.");
+                 "time_step, output.");
   CHECK_CONTAINS(case_refusal(""), "case.txt:1: the case file is empty");
   CHECK_CONTAINS(case_refusal("\n# nothing\n"), "case.txt:2: the case file is empty");
   CHECK_CONTAINS(case_refusal("", {"rate=1"}), "case.txt:1: the case is not complete");
-  for (const char* key : {"bodies", "flow", "points_per_body", "time_step", "end_time", "output"}) {
+  for (const char* key : {"bodies", "flow", "time_step", "end_time", "output"}) {
     std::string text = complete;
     text.insert(text.find(concat(key, " =")), 1, '#');
     CHECK_CONTAINS(case_refusal(text), concat("for each of: ", key, "."));
@@ -229,6 +229,19 @@ TEST_CASE("a value out of its limits is refused with file, line and value") {
     CHECK_ARGUMENT(concat("points_per_body=", value),
                    concat("points_per_body = '", value, "' is not a whole number"));
   CHECK(read(complete, {"points_per_body=8"}).points_per_body == 8);
+
+  std::string free = complete;
+  free.insert(free.find("points_per_body"), 1, '#');
+  CHECK(read(free).accuracy == 1e-4);
+  CHECK(read(free, {"accuracy=1e-8"}).accuracy == 1e-8);
+  CHECK(!read(complete).accuracy);
+  for (const char* value : {"0", "-1e-4", "1e-12", "0.2"})
+    CHECK_CONTAINS(case_refusal(free, {concat("accuracy=", value)}),
+                   concat("accuracy = '", value, "' must be between 1e-11 and 0.1; try 1e-4."));
+  for (const char* key : {"refine=near", "gmres_tolerance=1e-8", "points_per_body=32"})
+    CHECK_CONTAINS(case_refusal(free, {"accuracy=1e-6", key}), "is chosen by accuracy = 1e-06; keep one of them.");
+  CHECK_CONTAINS(case_refusal(free, {"min_separation=0.1"}), "is in units of points_per_body; give min_separation_length.");
+  CHECK_CONTAINS(case_refusal(free, {"coupling=local"}), "needs fixed nodes");
 
   CHECK_REFUSED("gmres_tolerance = 0", "gmres_tolerance = '0' must be greater than 0 and less than 1");
   CHECK_REFUSED("gmres_tolerance = 1", "gmres_tolerance = '1' must be greater than 0 and less than 1");

@@ -72,7 +72,7 @@ TEST_CASE("trajectory.csv and steps.csv begin with their columns and have the do
   CHECK(trajectory.starts_with("step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque\n0,0,0,-2,0.5,0.25,"));
   CHECK(steps.starts_with(
       "step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,"
-      "smallest_multiplier,largest_multiplier\n0,0,0.1,"));
+      "smallest_multiplier,largest_multiplier,estimated_error,nodes,clusters,most_nodes,unresolved\n0,0,0.1,"));
   CHECK(results.trajectory.numbers("step") == Numbers{0, 0, 1, 1, 2, 2, 3, 3});
   CHECK(results.trajectory.numbers("body") == Numbers{0, 1, 0, 1, 0, 1, 0, 1});
   CHECK(results.step_column("step") == Numbers{0, 1, 2, 3});
