@@ -123,6 +123,9 @@ $(BUILD)/%.o: experiments/%.cpp
 	$(LIGHTLY)
 $(BUILD)/%.o: tests/%.cpp
 	$(LIGHTLY) -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+# It compares bits with what inline functions give in src.
+$(BUILD)/test_gap.o: tests/test_gap.cpp
+	$(COMPILE) -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
 
 # Of an inline function that several objects have, the linker takes the first: those with -O3 come first.
 LINK   = $(CXX) $(FLAGS) $^ -o $@ $(LIBS)

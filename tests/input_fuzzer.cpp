@@ -157,7 +157,7 @@ std::string judge(const Case& c) {
                              c.inner_angular_velocity, c.injection_rate, c.rate, c.reverse_at.value_or(0.0),
                              c.min_separation, c.min_separation_length.value_or(0.0), c.gmres_tolerance, c.checkpoint_every})
     if (!std::isfinite(value)) return "a number is not finite";
-  if (c.points_per_body < 8 || c.points_per_body % 2 != 0) return "points_per_body";
+  if (!c.accuracy && (c.points_per_body < 8 || c.points_per_body % 2 != 0)) return "points_per_body";
   if (!(c.time_step > 0.0) || !(c.end_time > 0.0) || c.end_time / c.time_step >= 2e9) return "time_step or end_time";
   if (c.min_separation < 0.0 || c.min_separation_length.value_or(0.0) < 0.0) return "the separation is negative";
   if (c.bodies.empty() || c.output.empty()) return "a name is empty";

@@ -297,10 +297,13 @@ TEST_CASE("the help names every key with its default, and every column") {
                                       : help.substr(start + 1, help.find('\n', start + 1) - start - 1);
   };
   for (const char* name :
-       {"bodies", "flow", "points_per_body", "time_step", "end_time", "output", "theta"})
+       {"bodies", "flow", "time_step", "end_time", "output", "theta"})
     CHECK_CONTAINS(line(name), " required ");
   Comments defaults = describe(read(complete));
-  defaults.erase(defaults.begin(), defaults.begin() + 5);  // the required ones that are described
+  std::erase_if(defaults, [](const auto& given) {  // what the case gives
+    return given.first == "bodies" || given.first == "flow" || given.first == "points_per_body" ||
+           given.first == "time_step" || given.first == "end_time";
+  });
   for (const auto& [key, value] : defaults) CHECK_CONTAINS(line(key), concat(" ", value, " "));
   CHECK_CONTAINS(line("threads"), " all ");
   CHECK_CONTAINS(line("flow"), "(shear | extension | taylor_green | none)");

@@ -90,9 +90,9 @@ TEST_CASE("a case in an annulus without its radii names what is missing, and not
                                                         "`key = value` for each of: ", key, "."));
   }
   check_contains(refusal([&] { read("geometry = annulus\n"); }),
-                 "for each of: bodies, points_per_body, time_step, end_time, output, inner_radius, outer_radius.");
+                 "for each of: bodies, time_step, end_time, output, inner_radius, outer_radius.");
   check_contains(refusal([&] { read("geometry = unbounded\n"); }),
-                 "for each of: bodies, flow, points_per_body, time_step, end_time, output.");
+                 "for each of: bodies, flow, time_step, end_time, output.");
 }
 
 TEST_CASE("a key of the wrong geometry is refused") {

@@ -382,7 +382,7 @@ TEST_CASE("fields of the step that is not made are empty in the last rows") {
   const Workspace here(case_text("shear", 8, 0.1, 0.2), one_disc);
   run(here);
   CHECK(content_of(here.path() / "out/trajectory.csv").ends_with(",,,,,,\n"));
-  CHECK(contains(content_of(here.path() / "out/steps.csv"), "\n2,0.2,,,,,inf,,,,\n"));
+  CHECK(contains(content_of(here.path() / "out/steps.csv"), "\n2,0.2,,,,,inf,,,,,,,,,\n"));
 }
 
 TEST_CASE("--help columns explains every column that a run writes, and so does the page for users") {

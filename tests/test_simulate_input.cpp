@@ -117,9 +117,9 @@ TEST_CASE("without arguments the program refuses and explains its use, and --hel
 }
 
 TEST_CASE("an empty case or one that lacks a key is bad input") {
-  check_refused_case("", {"case.txt:1", "empty", "bodies", "flow", "points_per_body", "end_time"});
+  check_refused_case("", {"case.txt:1", "empty", "bodies", "flow", "time_step", "end_time"});
   check_refused_case("\n# only words\n", {"case.txt:2", "empty"});
-  for (const char* key : {"bodies", "flow", "points_per_body", "time_step", "end_time", "output"}) {
+  for (const char* key : {"bodies", "flow", "time_step", "end_time", "output"}) {
     std::string text = complete_case;
     text.insert(text.find(concat(key, " =")), "# ");
     check_refused_case(text, {"case.txt:6", key});
