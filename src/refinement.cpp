@@ -80,6 +80,11 @@ std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, 
   return nodes;
 }
 
+double rate_tolerance(double relative_gap) {
+  constexpr double relative = 0.1, round_off = 1e-12;
+  return std::max(relative * std::pow(relative_gap, 1.5), round_off);
+}
+
 ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance) {
   const std::vector<Shape> shapes = boundary_shapes(bodies);
   ClusteredNodes result;
@@ -91,7 +96,8 @@ ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resol
     reach.push_back(cluster_reach(shapes[i], resolution[i].points, tolerance));
   }
   for (const Front& f : fronts(bodies, reach)) {
-    add_cluster(shapes[f.boundary], f, resolution[f.boundary].factor, tolerance, nodes[f.boundary]);
+    const double of_rate = rate_tolerance(f.gap * f.curvature);
+    add_cluster(shapes[f.boundary], f, resolution[f.boundary].factor, std::min(tolerance, of_rate), nodes[f.boundary]);
     double& least = result.relative_gap[f.boundary];
     least = std::min(least, std::max(f.gap * f.curvature, 1e-12));
   }

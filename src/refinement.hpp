@@ -41,12 +41,17 @@ struct Resolution {
   double factor = 1.0;
 };
 
+// The error of velocities at which the rate of a gap, which under a force is about (g kappa)^1.5 / (3 sqrt(2) pi) of what it is
+// without the other boundary, is known to about a hundredth. At least the round-off of rates.
+double rate_tolerance(double relative_gap);
+
 struct ClusteredNodes {
   std::vector<Discretisation> nodes;
   std::vector<double> relative_gap;  // the smallest gap of each boundary in units of its radius of curvature; 2 if none
 };
 
-// Nodes of every body and of the container, if there is one, each with the clusters that its resolution needs.
+// Nodes of every body and of the container, if there is one, each with the clusters that its resolution needs for the
+// tolerance and for the rates of the gaps (rate_tolerance).
 ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance);
 
 }  // namespace stokes

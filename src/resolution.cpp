@@ -96,7 +96,7 @@ Choice choice(const Suspension& bodies, const std::vector<Shape>& shapes, const 
     const double tolerance = nodes[i].clusters.empty() ? 0.1 * std::sqrt(accuracy) : accuracy * root(relative_gap[i]);
     nodes[i].upsampling = disc ? 2 : close_upsampling(shapes[i], nodes[i], std::max(tolerance, 1e-13));
   }
-  return {std::move(nodes), std::max({accuracy * root(least), round_off(least), 1e-12}), least};
+  return {std::move(nodes), std::max({std::min(accuracy * root(least), rate_tolerance(least)), round_off(least), 1e-12}), least};
 }
 
 // Half as many again.
