@@ -98,21 +98,10 @@ $(BUILD)/flags: FORCE | $(filter deps,$(MAKECMDGOALS))
 	@mkdir -p $(BUILD)
 	@echo '$(STAMP)' | cmp -s - $@ || echo '$(STAMP)' > $@
 
-# Eigen takes most of the time of most files, and is therefore compiled once. With other flags than these the compiler
-# falls back on the header beside it. ccache, which keeps objects, does without.
-ifeq ($(findstring ccache,$(CXX)),)
-PRECOMPILED = $(BUILD)/precompiled.hpp.gch
-INCLUDE     = -include $(BUILD)/precompiled.hpp
-$(BUILD)/precompiled.hpp: src/precompiled.hpp $(BUILD)/flags
-	@cp $< $@
-PRECOMPILE := $(CXX) $(FLAGS)
-$(PRECOMPILED): $(BUILD)/precompiled.hpp
-	$(PRECOMPILE) -MD -MP -x c++-header $< -o $@
-endif
-COMPILE = $(CXX) $(FLAGS) $(INCLUDE) -MMD -MP -c $< -o $@
+COMPILE = $(CXX) $(FLAGS) -MMD -MP -c $< -o $@
 LIGHTLY = $(subst -O3,-O1,$(COMPILE))
 
-$(OBJECTS): $(BUILD)/flags $(PRECOMPILED)
+$(OBJECTS): $(BUILD)/flags
 # Random starts have the same bits with every compiler: no product is fused with a sum.
 $(BUILD)/packing.o: FLAGS += -ffp-contract=off
 $(BUILD)/%.o: src/%.cpp
