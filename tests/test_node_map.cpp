@@ -23,6 +23,7 @@ TEST_CASE("the map of nodes runs around once, its derivatives are those of its v
     CHECK(map.position(0.0) == 0.0);
     CHECK(std::abs(map.position(2.0 * pi - 1e-9) - 2.0 * pi) < 1e-4);
     const std::vector<MappedNode> mapped = map.at_equal_steps(nodes.size());
+    const std::vector<MappedNode> fine = map.at_equal_steps(400 * nodes.size());  // for differences
     double worst = 0.0, slope = 0.0, bend = 0.0;
     for (int k = 0; k < nodes.size(); ++k) {
       const MappedNode& node = mapped[k];
@@ -31,8 +32,6 @@ TEST_CASE("the map of nodes runs around once, its derivatives are those of its v
                                   std::min(1.0, node.first));
       const NodeCluster& c = nodes.clusters[node.cluster];
       CHECK(std::abs(std::remainder(c.alpha + node.distance - node.alpha, 2.0 * pi)) < 1e-14);
-      // Differences of the nodes of a map twenty times as fine.
-      const std::vector<MappedNode> fine = map.at_equal_steps(400 * nodes.size());
       if (k % 16 != 0) continue;
       const auto near = [&](int step) { return fine[(400 * k + step + 400 * nodes.size()) % (400 * nodes.size())]; };
       if (near(1).cluster != node.cluster || near(-1).cluster != node.cluster) continue;
