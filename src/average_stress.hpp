@@ -7,19 +7,19 @@
 
 namespace stokes {
 
-// sigma n ds, n out of the fluid, at each node of a boundary (bodies in order, then the container): the force of its
-// share of the boundary on the fluid, laboratory frame. The other arguments are those of StokesSystem::flow(), the
-// cost as well.
+// sigma n ds at each node of a boundary (bodies in order, then the container), with n out of the fluid: the force of that
+// part of the boundary on the fluid, laboratory frame. The other arguments and the cost are those of
+// StokesSystem::flow().
 std::vector<Complex> node_forces(const StokesSystem& system, int boundary, const ComplexVector& density,
                                  const BackgroundFlow& background, const std::vector<Wrench>& wrenches);
 
-// Stress, averaged over the fluid and the free bodies (area V): from the walls around them, the container and the
-// fixed bodies, by the divergence theorem,
+// Stress averaged over the fluid and the free bodies (area V). The divergence theorem gives it from the walls, which are
+// the container and the fixed bodies,
 //   <sigma> = (1/V) Sum_walls oint sym((sigma n) (x) x) ds,   x from the container's centre.
 // Contact forces between free bodies count as stress along the line of centres; its deviatoric part is that of
 //   2 <E> + (1/V) (Sum_free S_j + Sum_contacts sym(F_AB (x) (c_B - c_A))),   F_AB on A by B,
-// and the pressure has the free constant of a bounded flow. The contact forces of walls act on the bodies, not on
-// the fluid: they are not in it, and with them, or with external forces, it depends on where x begins.
+// and the pressure has the free constant of a bounded flow. Contact forces of walls act on the bodies, not on the fluid,
+// and are not included. With such forces or external forces the result depends on the origin of x.
 // InputError without a container. Accuracy and cost: those of the flow at the walls' nodes.
 Stress average_stress(const StokesSystem& system, const ComplexVector& density, const BackgroundFlow& background,
                       const std::vector<Wrench>& wrenches);

@@ -19,8 +19,8 @@
 
 #include <eigen3/Eigen/Core>
 
-// Eigen's own threads change the order of its sums with their number; ours do not. In a header this would come too late
-// for files that include Eigen first, and the linker would mix both kinds of products.
+// Eigen's own threads would make its sums depend on their number. The definition belongs to the compiler's flags: set in a
+// header it would miss files that include Eigen first, and the linker would mix both kinds of products.
 #ifndef EIGEN_DONT_PARALLELIZE
 #error "compile every file with -DEIGEN_DONT_PARALLELIZE, as the makefile does"
 #endif
@@ -40,20 +40,20 @@ inline double dot(Complex u, Complex v) { return u.real() * v.real() + u.imag() 
 inline double cross(Complex u, Complex v) { return u.real() * v.imag() - u.imag() * v.real(); }
 inline Complex perp(Complex v) { return {-v.imag(), v.real()}; }
 
-// 1/z and u/z without the checks for overflow that make the language's own division several times slower.
+// 1/z and u/z without the checks for overflow, which make the built-in division several times slower.
 inline Complex reciprocal(Complex z) { return std::conj(z) / std::norm(z); }
 inline Complex quotient(Complex u, Complex z) {
   const double over = 1.0 / std::norm(z);
   return {dot(u, z) * over, -cross(u, z) * over};
 }
 
-// The input is wrong; the message is one paragraph: what, where, value against limit, what to try.
-// A program that catches it has written nothing and exits with status 2.
+// The input is wrong. The message is one paragraph: what, where, value against limit, what to try.
+// Nothing has been written. Programs exit with status 2.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The computation cannot go on; everything up to it has been written. Exit status 3.
+// The computation cannot go on. Everything computed before has been written. Programs exit with status 3.
 struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

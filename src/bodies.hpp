@@ -15,14 +15,14 @@ Suspension read_bodies(const std::filesystem::path& path);
 // The same for the content of such a file; the name is for messages.
 Suspension parse_bodies(std::string_view content, const std::string& file_name);
 
-// The same for the bodies in an annulus, without its walls: bodies may be fixed, forces may have any sum (that
-// on a fixed body does nothing), and no body may overlap or touch another one or a wall.
+// The same for the bodies in an annulus, without its walls. Bodies may be fixed, forces may have any sum (a force
+// on a fixed body does nothing), and no body may overlap or touch another body or a wall.
 Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus);
 
-// The content of such a file, with every column, which reads back as the same bodies. Walls have no row.
+// The content of a file, with every column, from which the same bodies are read. Walls have no row.
 std::string format_bodies(const Suspension& bodies);
 
-// What a user can write there.
+// Help for users: the columns of the file.
 std::string bodies_help();
 
 }  // namespace stokes

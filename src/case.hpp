@@ -1,8 +1,8 @@
 // A user's problem: the case file `key = value` and the CSV of its bodies.
 //
 // Every error in either is an InputError of one paragraph: file and line (or the argument), the value
-// against its limit, what to try. To add a key: a member of Case and a line in case_keys.cpp. To
-// add a value: an enumerator and its word in case_keys.cpp. Limits, if there are any, go into check_case().
+// against its limit, what to try. A new key needs a member of Case and a line in case_keys.cpp. A new
+// value needs an enumerator and its word in case_keys.cpp. Limits, if there are any, belong in check_case().
 #pragma once
 
 #include <filesystem>
@@ -23,8 +23,8 @@ enum class Geometry {
 
 struct Case {
   std::filesystem::path file;  // the case file; not a key
-  std::string command;         // that runs the case, for its record; not a key
-  std::vector<std::string> warnings;  // of what the user has given; not a key
+  std::string command;         // the command that runs the case, for its record; not a key
+  std::vector<std::string> warnings;  // about the values given; not a key
 
   // Required.
   std::string bodies;             // CSV of the bodies, as written: see bodies_path()
@@ -42,12 +42,12 @@ struct Case {
   int wall_points = 256;                // even, at least 16
   double outer_angular_velocity = 0.0;  // 1 / time
   double inner_angular_velocity = 0.0;  // 1 / time
-  double injection_rate = 0.0;          // area / time through both walls, outwards
+  double injection_rate = 0.0;          // area / time, outwards through both walls
 
   // With defaults.
   Geometry geometry = Geometry::unbounded;
   double rate = 1.0;                            // 1 / time; may be negative
-  std::optional<double> reverse_at;             // time; every driving changes sign once
+  std::optional<double> reverse_at;             // time; the flow and the walls' velocities change sign once
   double min_separation = 0.0;                  // in units of h = longest perimeter / points_per_body
   std::optional<double> min_separation_length;  // length; instead of min_separation
   ContactModel contact = ContactModel::gap;
@@ -74,8 +74,8 @@ struct Case {
   std::filesystem::path bodies_path() const { return file.parent_path() / bodies; }
 };
 
-// Reads and checks a case file. Each override `key=value` counts as if written in the file and replaces
-// the value that is written there, right or wrong.
+// Reads and checks a case file. Each override `key=value` replaces the value that is written in the file, whether that
+// is valid or not.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 // The same for the content of a case file of that name.
 Case parse_case(std::string_view content, const std::filesystem::path& file,
@@ -86,17 +86,17 @@ Suspension read_suspension(const Case& parameters);
 // The same for the content of the bodies' file.
 Suspension parse_suspension(const Case& parameters, std::string_view content);
 
-// The smallest allowed distance between two bodies, in length units. Walls have no part in its unit h.
+// The smallest allowed distance between two bodies, as a length. Its unit h is the largest of the bodies, not of the walls.
 double separation_length(const Case& parameters, const Suspension& bodies);
 
-// Every key that does something in the case but `threads`, `output`, `overwrite` and `checkpoint_every` (results are
-// the same bytes whatever these are) with its value, defaults included.
+// Every key that has an effect in the case, with its value, defaults included. `threads`, `output`, `overwrite` and
+// `checkpoint_every` are left out, because they do not change the bytes of the results.
 Comments describe(const Case& parameters);
 
-// The content of a case file that makes the same case again, but for `threads`, `overwrite` and `checkpoint_every`.
+// The content of a case file for the same case, without `threads`, `overwrite` and `checkpoint_every`.
 std::string format_case(const Case& parameters);
 
-// What a user can write: every key with its default and values, and the columns of the bodies' file.
+// Help for users: every key with its default and values, and the columns of the bodies' file.
 std::string case_help();
 
 }  // namespace stokes

@@ -1,4 +1,4 @@
-// The keys of a case file: how each is named, read, written and explained.
+// The keys of a case file: name, parser, printer and help of each.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace stokes {
 
-// A value as the user gave it, and where: "file:line" or "argument 'key=value'".
+// A value as the user wrote it, and where: "file:line" or "argument 'key=value'".
 struct GivenValue {
   std::string text;
   std::string where;
@@ -18,12 +18,12 @@ struct GivenValue {
 };
 using GivenKeys = std::map<std::string, GivenValue>;
 
-// In which geometries a case must have a key.
+// The geometries in which a key is required.
 enum class Needed { always, unbounded, annulus, never };
 
-// What must hold for a key to do anything.
+// A condition without which a key has no effect.
 struct Condition {
-  std::string key;  // the one that decides it
+  std::string key;  // the key that decides it
   std::function<bool(const Case&)> holds;
   std::string otherwise;  // the end of a sentence that begins with the key and its value
 };
@@ -56,7 +56,7 @@ template <class... Parts>
   throw InputError(concat(where, ": ", parts...));
 }
 
-// What to write for a word of other programs, as a sentence and a space; nothing for other words.
+// Advice for a word that other programs use, as a sentence and a space. Empty for all other words.
 std::string hint_for(std::string_view word);
 
 // `where: key = 'value' why`.

@@ -1,9 +1,9 @@
-// Checkpoint of an unfinished run: the file `checkpoint` among its results, from which the same command goes on
-// to the same bytes that an uninterrupted run writes.
+// Checkpoint of an unfinished run: the file `checkpoint` among its results. The same command continues from it and
+// writes the same bytes as an uninterrupted run.
 //
 // A text file: the build of the program, the run's description, its state with every double to the last bit, the
-// position of its results, and a checksum. Replaced as a whole and on disk before it counts, so that a process that is
-// killed or a machine that stops while it is written leaves the one before.
+// position of its results, and a checksum. It is replaced as a whole once the new one is on disk. If the process is
+// killed or the machine stops meanwhile, the previous checkpoint remains.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace stokes {
 
-// Fowler, Noll and Vo's hash of 64 bits, FNV-1a.
+// The 64-bit hash FNV-1a of Fowler, Noll and Vo.
 std::uint64_t checksum(std::string_view text);
 
 struct Checkpoint {
@@ -30,21 +30,21 @@ struct Checkpoint {
 
 class CheckpointFile {
  public:
-  // Of the run of a case, from the bodies it starts with, whose results are in c.output.
+  // The checkpoint in c.output of the run of a case, which starts with the bodies `initial`.
   CheckpointFile(const Case& c, const Suspension& initial);
 
   const std::filesystem::path& path() const { return path_; }
 
-  // The checkpoint to go on from, if there is one. InputError for one of another case or other bodies, which
-  // says what differs, and for one that is damaged. That of another run counts as none if it failed, so that its case
-  // had to be changed, or if it may be overwritten.
+  // The checkpoint to continue from, if there is one. InputError if it is damaged or belongs to another case or other
+  // bodies; the message says what differs. A checkpoint of another run is ignored if that run failed, since its case then
+  // has to be changed, or if it may be overwritten.
   std::optional<Checkpoint> read() const;
 
-  // NumericalError on a write error; the checkpoint before is then still there. Cost: about 160 bytes a node, and as
-  // much again for each pair in contact.
+  // NumericalError on a write error; the previous checkpoint then remains. Size: about 160 bytes for each node, and the
+  // same again for each pair in contact.
   void write(const Checkpoint& checkpoint) const;
 
-  // Also what a killed write left; nothing if there is neither.
+  // Removes the checkpoint and what a killed write left behind, if they are there.
   void remove() const;
 
  private:

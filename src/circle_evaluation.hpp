@@ -17,10 +17,10 @@ namespace stokes {
 
 class CircleEvaluation {
  public:
-  // Around 0, its node k at the angle 2 pi k / points; points even.
+  // The circle around 0 with node k at the angle 2 pi k / points; `points` is even.
   CircleEvaluation(double radius, int points, Side side);
 
-  // As CloseEvaluation, for all nodes or some. Cost O(1) per target and node.
+  // As CloseEvaluation::velocity_rows, for all nodes or some. Cost O(1) per target and node.
   VelocityRows velocity_rows(const std::vector<Complex>& z) const;
   VelocityRows velocity_rows(const std::vector<Complex>& z, const std::vector<int>& nodes) const;
 
@@ -30,7 +30,7 @@ class CircleEvaluation {
   ComplexVector direction_;  // e^(i alpha) of the nodes
 };
 
-// The flow of one density, by the series themselves: for large circles, whose rows would fill the memory.
+// The flow of one density, summed by the series. For large circles, whose rows would need too much memory.
 class CircleFlow {
  public:
   CircleFlow(double radius, Side side, const ComplexVector& density);
@@ -42,7 +42,7 @@ class CircleFlow {
   double radius_;
   Side side_;
   Complex first_;                // c_1
-  std::vector<double> series_;   // of each power of q or 1/q the coefficients of three series, real and imaginary parts
+  std::vector<double> series_;   // real and imaginary parts of the coefficients of three series, power by power
 };
 
 }  // namespace stokes

@@ -1,8 +1,8 @@
-// Completion flows: what a double layer cannot represent, the flow of a net force and torque on a hole.
+// Completion flows: the flow of a net force and torque on a body, which a double layer cannot represent.
 //
-// For an ellipse they are the closed-form flows of the rigid ellipse itself rather than singularities at
-// its centre: their trace on the own boundary is a rigid motion to round-off at any number of nodes,
-// where the trace of a centre singularity is resolved only like exp(-N atanh(b/a)). For a disc they are
+// For an ellipse they are the closed-form flows of the rigid ellipse rather than singularities at its centre.
+// On its own boundary such a flow is a rigid motion to round-off with any number of nodes, whereas N nodes
+// resolve the trace of a singularity at the centre only like exp(-N atanh(b/a)). For a disc they are
 // the Stokeslet with its degenerate quadrupole and the rotlet.
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace stokes {
 
 // The flow of a body that exerts `wrench` (force, and torque about its centre) on an otherwise quiescent unbounded
-// fluid; up to the constant velocity that the logarithm leaves free, which log_length, the unit of the distances in it,
-// settles.
+// fluid. The logarithm leaves a constant velocity free. It is fixed by log_length, the unit of the distances in the
+// logarithm.
 class CompletionFlow {
  public:
   CompletionFlow(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length = 1.0);
@@ -34,16 +34,16 @@ inline Complex completion_velocity(const Shape& shape, const Pose& pose, const W
   return CompletionFlow(shape, pose, wrench, log_length).velocity(x);
 }
 
-// The same with pressure, which vanishes at infinity, and velocity gradient. Accurate to round-off up to the body.
+// The same with pressure, which vanishes at infinity, and velocity gradient. Accurate to round-off, also on the body.
 PointFlow completion_flow(const Shape& shape, const Pose& pose, const Wrench& wrench, Complex x,
                           double log_length = 1.0);
 
-// The rigid motion to which that flow reduces on the body's own boundary: the self-mobility of the body. In
-// two dimensions its translational part depends on the unit of length and may be negative.
+// The rigid motion that this flow is on the body's own boundary: the self-mobility of the body. In two dimensions
+// its translational part depends on the unit of length and may be negative.
 RigidVelocity completion_trace(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length = 1.0);
 
-// Stresslet S_11 + i S_12 (laboratory frame, about the centre) that the completion flow carries: zero
-// for a disc; a torque L on an ellipse carries -i (L/2)(a^2-b^2)/(a^2+b^2) in the body frame.
+// Stresslet S_11 + i S_12 of the completion flow (laboratory frame, about the centre). It is zero for a
+// disc. For a torque L on an ellipse it is -i (L/2)(a^2-b^2)/(a^2+b^2) in the body frame.
 Complex completion_stresslet(const Shape& shape, const Pose& pose, const Wrench& wrench);
 
 }  // namespace stokes

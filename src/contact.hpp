@@ -4,8 +4,8 @@
 // the two bodies' poses there, and the generalised force that a unit multiplier exerts. The
 // complementarity solver (ncp.hpp) knows constraints only in this form.
 //
-// One of the bodies may be fixed, and instead of the second there may be the container. The entries of gradient
-// and force that belong to such a partner are those of a body: its reaction, about its centre. Nothing moves it.
+// One of the bodies may be fixed, and the second may be the container. The entries of gradient and force of such a
+// partner are defined as for any other body: its reaction, about its centre. It does not move.
 #pragma once
 
 #include <map>
@@ -23,12 +23,12 @@ enum class ContactModel {
   stiv,  // the paper's: space-time interference volumes between polygons, clusters balanced (stiv.hpp, cluster.hpp)
 };
 
-// Part of the separation by which active contacts may miss it: at a gap, or for a volume at one vertex.
+// Active contacts may miss the separation by this part of it: the gap itself, or one vertex of a volume.
 inline constexpr double contact_tolerance = 1e-4;
 
 struct ContactConstraint {
   int a, b;              // bodies, a < b; b may be container_index
-  int region;            // several contacts of one pair are told apart by this number, 0, 1, ...
+  int region;            // number of the contact among those of the pair, 0, 1, ...
   double value;          // satisfied when >= 0; an active contact aims at 0
   double tolerance;      // |value| below it counts as 0
   GapGradient gradient;  // of the value, at the trial poses
@@ -41,11 +41,11 @@ struct ContactConstraint {
 //   that met first along their normal;
 //   force = gradient of the gap at the START of the step, which makes the two forces of a contact
 //   opposite and collinear in the configuration in which the fluid is solved.
-// Two fixed bodies are no pair. Of a mobile body and the container the gap at the trial pose is all there is to
-// know: nobody passes through the wall and comes back. A step that turns the normal by more than 60 degrees
-// started too far from the wall to show where it would be met; its force is along the normal at the trial pose.
-// A body so flat that it can touch the wall with both ends (container_gap.hpp) has one contact there all the same:
-// iterations that press now one end and now the other against the wall may fail to settle.
+// Two fixed bodies are not a pair. For a mobile body and the container only the gap at the trial pose counts, since no
+// body passes through the wall and comes back. If the step turns the normal by more than 60 degrees, the body started
+// too far from the wall for its first normal to be meaningful. The force is then along the normal at the trial pose.
+// A body so flat that it can touch the wall with both ends (container_gap.hpp) still has a single contact there.
+// Iterations that press one end and then the other against the wall may fail to converge.
 class GapCollector {
  public:
   // separation >= 0. With 0 the bodies are kept 1e-7 of the smallest semi-axis apart,

@@ -1,4 +1,4 @@
-// What contacts do to bodies: the forces of unit multipliers, and how fast motions change the constraints' values.
+// Contact forces and torques on the bodies, and the rate at which motions change the values of constraints.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ struct ContactWrenches {
     on_b.force += factor * force.centre_b, on_b.torque += factor * force.angle_b;
   }
 
-  // What of them moves the fluid: not what the fixed bodies bear.
+  // The wrenches that act on the fluid: fixed bodies bear theirs themselves.
   std::vector<Wrench> on_all_but(const std::vector<int>& fixed) const {
     std::vector<Wrench> result = bodies;
     for (const int i : fixed) result[i] = {};
@@ -27,7 +27,7 @@ struct ContactWrenches {
   }
 };
 
-// Rate of a value with the given gradient when the mobile bodies move with `velocity`.
+// Rate of change of a value with the given gradient when the mobile bodies move with `velocity`.
 inline double rate_of(const Suspension& bodies, const ContactConstraint& c, const GapGradient& gradient,
                       const std::vector<RigidVelocity>& velocity) {
   double sum = 0.0;

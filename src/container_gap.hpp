@@ -1,13 +1,13 @@
 // Signed gap between a convex body and the circular wall around the fluid.
 //
-// With the container's centre o and radius R, the gap is R - max |p - o| over the points p of the body: the
-// distance from the wall of a body inside, minus the way by which the farthest point is outside of any other.
+// With the container's centre o and radius R, the gap is R - max |p - o| over the points p of the body. It is the distance
+// from the wall if the body is inside. Otherwise it is minus the distance of its farthest outside point from the wall.
 //
-// One point represents the contact. It is the only place where a body can touch if all its radii of curvature
-// are below R, that is, for semi-axes a > b, if a^2 < b R. A flatter body may touch with both ends at once: the
-// value is right there too, but its gradient, which knows one end, jumps where the other takes over.
+// One point represents the contact. A body whose radii of curvature are all below R (for semi-axes a > b: a^2 < b R) can
+// only touch the wall at one point. A flatter body may touch with both ends at once. The value is right there, too, but
+// the gradient refers to one end and jumps where the other end takes over.
 //
-// No search in time is needed beside it. Let the centre move and the angle turn by w, both linearly. The
+// No search in time is needed. Let the centre move and the angle turn by w, both linearly. The
 // farthest distance plus (a^2 - b^2) / a (w tau)^2 / 2 is a convex function of tau in [0, 1], because the second
 // derivative of a support function with respect to the angle is at least -(a^2 - b^2) / a. So meanwhile
 //   gap(tau) >= min(gap(0), gap(1)) - (a^2 - b^2) / a w^2 / 8.

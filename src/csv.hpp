@@ -1,8 +1,8 @@
 // CSV tables: `# key: value` lines, one header line, rows.
 //
-// The reader takes what spreadsheets and editors make of a file (CRLF, byte order mark, blank lines,
-// spaces round fields, comment lines anywhere, RFC 4180 quotes) and refuses the rest with file and line.
-// The writer's bytes depend on nothing but its arguments.
+// The reader accepts what spreadsheets and editors produce (CRLF, byte order mark, blank lines, spaces around
+// fields, comment lines anywhere, RFC 4180 quotes). It refuses everything else and names file and line.
+// The bytes that the writer produces depend only on its arguments.
 #pragma once
 
 #include <cstdint>
@@ -71,14 +71,14 @@ std::string csv_field(Number value) {
 template <class T>
 concept CsvField = std::is_arithmetic_v<T> || std::is_convertible_v<const T&, std::string_view>;
 
-// Writes a table row by row. Opening throws InputError (the folder must exist); a failed write, at the
-// latest in flush() or close(), throws NumericalError. The destructor closes and keeps what was written,
-// without a check: call close() at the end of the work.
+// Writes a table row by row. Opening throws InputError; the folder must exist. A failed write throws
+// NumericalError, at the latest in flush() or close(). The destructor closes the file without checking for
+// errors, so call close() at the end of the work.
 class CsvWriter {
  public:
   CsvWriter(const std::filesystem::path& path, const std::vector<std::string>& header,
             const Comments& comments = {});
-  // Goes on with a table that has at least `bytes` bytes after that many, the end of a line; what follows them is
+  // Continues an existing table after its first `bytes` bytes, which must end with a line. Everything behind them is
   // cut off. InputError if the file cannot be written.
   static CsvWriter continued(const std::filesystem::path& path, std::size_t columns, std::uintmax_t bytes);
 
@@ -97,8 +97,8 @@ class CsvWriter {
   // flush(), and the file is on disk: it survives a machine that stops.
   void sync();
   void close();
-  // After a failed write: closes the file without a further complaint and takes what is behind its first `bytes`
-  // bytes away, such as a part of a row. A row after that is a program error.
+  // After a failed write: closes the file without a further error and removes everything behind its first `bytes`
+  // bytes, such as part of a row. Writing another row afterwards is a program error.
   void close_after(std::uintmax_t bytes);
 
  private:
@@ -116,12 +116,12 @@ class CsvWriter {
   std::unique_ptr<std::FILE, Close> file_;
 };
 
-// When a function that writes returns: once other processes see what it wrote, or once it is on disk.
+// A function that writes returns once other processes see the data, or once the data are on disk.
 enum class Until { visible, on_disk };
 
-// Replaces a file as a whole: a reader sees the old content or the new, never a part, even if this process is killed
-// or, with Until::on_disk, the machine stops (a file <path>.tmp may stay behind). Throws InputError if it cannot be
-// created, NumericalError if it cannot be completed; the old file is then untouched.
+// Replaces a file as a whole. A reader sees the old content or the new, never a part, even if this process is killed or,
+// with Until::on_disk, the machine stops. A file <path>.tmp may stay behind. Throws InputError if the new file cannot be
+// created, NumericalError if it cannot be completed. The old file is then untouched.
 void write_file_atomically(const std::filesystem::path& path, std::string_view content, Until until = Until::visible);
 
 }  // namespace stokes

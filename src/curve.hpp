@@ -7,15 +7,15 @@
 
 namespace stokes {
 
-// A point near a curve. With a cluster of the curve, it is also known by its offset from the cluster's point, in the
-// frame whose first axis is the tangent there: its difference from nodes of the cluster then keeps its relative accuracy.
+// A point near a curve. If it belongs to a cluster of the curve, its offset from the cluster's point is also stored, in
+// the frame whose first axis is the tangent there. Differences from nodes of the cluster then keep their relative accuracy.
 struct Target {
   Complex position;
   int cluster = -1;
   Complex offset{};
 };
 
-// The nearest cluster of each node (node_map.hpp), and its offset from the cluster's point; empty without clusters.
+// For each node the nearest cluster (node_map.hpp) and the offset from the cluster's point. Empty without clusters.
 struct CurveClusters {
   std::vector<Complex> tangent;  // of each cluster
   std::vector<int> nearest;

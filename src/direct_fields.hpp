@@ -7,7 +7,7 @@
 
 namespace stokes {
 
-// Strengths of N point sources; a kind whose arrays are absent or empty does not take part.
+// Strengths of N point sources. A kind whose arrays are absent or empty is left out.
 //   stresslets (nodes of a double layer): w_j n_j and eta_j, both or neither,
 //     u = (1/pi) Sum_j (r.n_j)(r.eta_j) r/rho^4 w_j,
 //     p = (1/pi) Sum_j [2 (r.n_j)(r.eta_j)/rho^4 - n_j.eta_j/rho^2] w_j
@@ -41,8 +41,8 @@ void check_strength_sizes(const SourceStrengths& strengths, int source_count);
 void check_strengths_finite(const SourceStrengths& strengths);
 
 // The sums above at all targets. Vectorised over targets and threaded; the result does not depend on the
-// number of threads. Distances between points must lie between 1e-37 and 1e37, or be zero. Errors as of the
-// two checks above.
+// number of threads. Distances between points must lie between 1e-37 and 1e37, or be zero. Raises the errors
+// of the two checks above.
 void direct_fields(const PointArray& targets, const PointArray& sources, const SourceStrengths& strengths,
                    FlowOutput output, FlowFields& fields);
 

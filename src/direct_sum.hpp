@@ -21,8 +21,8 @@ struct PointArray {
 // where weighted_normal_j = w_j n_j. Sources that coincide with the target are left out (the diagonal
 // limit of the trapezoid rule is the caller's). Vectorised over targets and threaded; the result does
 // not depend on the number of threads.
-// `softening` >= 0: a length below which |r| in the denominator is replaced by it. What close points then lack is added
-// by whoever knows their difference better than the coordinates do.
+// `softening` >= 0: |r| in the denominator is replaced by this length where it is smaller. The caller corrects such close
+// pairs if it knows their difference more accurately than the coordinates do.
 void double_layer_velocity(const PointArray& targets, const PointArray& sources,
                            const PointArray& weighted_normal, const ComplexVector& density,
                            ComplexVector& velocity, double softening = 0.0);

@@ -1,5 +1,5 @@
-// A boundary at a given resolution, in its body frame, with everything that is computed once per shape and
-// then only rotated: quadrature, rigid-motion moments, close evaluation and the preconditioner block.
+// A discretised boundary in its body frame, with everything that is computed once per shape and then only
+// rotated: quadrature, rigid-motion moments, close evaluation and the preconditioner block.
 #pragma once
 
 #include <map>
@@ -32,8 +32,8 @@ enum class NearSingular {
   interpolation,  // the paper's: upsampling and interpolation from the boundary limit (interpolation.hpp)
 };
 
-// What is known on a boundary, and with it how the equations are closed, D being the double layer of the
-// boundary on itself, B = [e1, e2, i x] the rigid motions, B_w the same times the quadrature weights:
+// What is given on a boundary, and the block of its equations. D is the double layer of the boundary on
+// itself, B = [e1, e2, i x] are the rigid motions, B_w are these times the quadrature weights.
 enum class BoundaryKind {
   free,       // force and torque of a body: -1/2 + D - (1/2) B G^-1 B_w^T, G = B_w^T B; the rigid velocity is
               // half the density's rigid part
@@ -44,8 +44,8 @@ enum class BoundaryKind {
 
 class DiscreteShape {
  public:
-  // A container must be a disc. log_length: the length that divides distances in the logarithm of Stokeslets.
-  // Cost O(N^3), for circles with nodes at equal steps O(N^2).
+  // A container must be a disc. log_length: the unit of the distances in the logarithm of Stokeslets.
+  // Cost O(N^3); O(N^2) for circles with nodes at equal steps.
   DiscreteShape(const Shape& shape, const Discretisation& nodes, BoundaryKind kind, double log_length,
                 NearSingular near_singular);
 
@@ -58,7 +58,7 @@ class DiscreteShape {
     return (side() == Side::interior ? -1.0 : 1.0) * curve.weight[k] * imaginary_unit * curve.tangent[k];
   }
 
-  // Rigid part of a density: the motion whose quadrature-weighted moments it shares,
+  // Rigid part of a density: the rigid motion with the same quadrature-weighted moments,
   // (U, omega) = G^-1 B_w^T eta.
   RigidVelocity rigid_part(const Complex* density) const;
 
@@ -75,14 +75,14 @@ class DiscreteShape {
   // Force and torque of a fixed boundary on the fluid, body frame.
   Wrench wrench(const Complex* density) const;
 
-  // What a container's density adds to the operator at its node k is flux_part() n_k, n the unit normal.
+  // A container's density adds flux_part() n_k to the operator at its node k, where n is the unit normal.
   double flux_part(const Complex* density) const;
 
   // Rows of the double layer's velocity at points z (body frame) in the fluid, at any distance.
   VelocityRows close_rows(const std::vector<Target>& z) const;
   // The same for some of the nodes of a circle that has_series().
   VelocityRows close_rows(const std::vector<Complex>& z, const std::vector<int>& nodes) const;
-  // A circle whose rows are long: better a CircleFlow for each density.
+  // True for a circle with so many nodes that a CircleFlow for each density is cheaper than rows.
   bool has_series() const;
 
   // Flow of the double layer of a density at points z (both in the body frame) in the fluid or on the boundary, at any
@@ -137,30 +137,30 @@ struct BoundarySet {
   bool has(int boundary) const { return first[boundary] >= 0; }
 };
 
-// Distance from which on the plain trapezoid rule gives the velocity to an accuracy: 0.7 of the curve's largest point
-// spacings for each digit (on a disc the error decays like (1 + d/a)^-N).
+// Distance beyond which the plain trapezoid rule gives the velocity to `accuracy`: 0.7 times the curve's largest point
+// spacing for each digit (on a disc the error decays like (1 + d/a)^-N).
 double near_distance(const DiscreteShape& shape, double accuracy);
-// Pressure and gradient to 1e-10.
+// The same for pressure and gradient to 1e-10.
 double near_distance_of_gradient(const DiscreteShape& shape);
 // Rows of points z (frame of the shape) nearer than that.
 std::vector<int> near_rows(const DiscreteShape& shape, const std::vector<Complex>& z, double distance);
 
-// A density moved from one set of nodes to another of the same shape by trigonometric interpolation in s.
+// Interpolates a density from one set of nodes of a shape to another, trigonometrically in s (node_map.hpp).
 ComplexVector move_density(const ComplexVector& density, const Discretisation& from, const Discretisation& to);
 
 // The same for the densities of several boundaries, one after the other.
 ComplexVector move_densities(const ComplexVector& density, const std::vector<Discretisation>& from,
                              const std::vector<Discretisation>& to);
 
-// The shapes in use; each distinct one with nodes at equal steps is discretised and factorised once. Nodes with
-// clusters belong to one configuration and are made afresh.
+// The shapes in use. Each distinct shape with nodes at equal steps is discretised and factorised once. Shapes with
+// clusters belong to one configuration and are made anew.
 class ShapeCache {
  public:
   explicit ShapeCache(NearSingular near_singular = NearSingular::cauchy) : near_singular_(near_singular) {}
 
   std::shared_ptr<const DiscreteShape> get(const Shape& shape, const Discretisation& nodes, BoundaryKind kind,
                                            double log_length);
-  // Of boundaries with nodes at equal steps.
+  // Number of factorised shapes with nodes at equal steps.
   int factorisations() const { return static_cast<int>(shapes_.size()); }
   NearSingular near_singular() const { return near_singular_; }
 

@@ -1,4 +1,4 @@
-// Where two boundaries face each other: the pair of nearest points of a gap, in the boundaries' own parameters.
+// Where two boundaries face each other: the nearest points of a gap in terms of the parameters of the boundaries.
 #pragma once
 
 #include "gap.hpp"
@@ -6,24 +6,24 @@
 
 namespace stokes {
 
-// alpha of the nearest points of the boundaries a and b; there their tangents are parallel.
+// alpha_a and alpha_b are the parameters of the nearest points, where the tangents are parallel.
 struct Facing {
   double gap;                      // negative for overlap
   Complex normal;                  // from a to b, laboratory frame
   double alpha_a, alpha_b;
-  double curvature_a, curvature_b;  // of a container negative
+  double curvature_a, curvature_b;  // negative for a container
 
   double curvature() const { return curvature_a + curvature_b; }
 };
 
-// As gap(), at its cost.
+// Accuracy and cost as for gap().
 Facing facing(const Body& a, const Body& b);
 Facing facing(const Body& a, const Container& b);
 
-// The width W of the gap, over which densities vary, and not over less. With the distance x along the tangent at which the separation of the boundaries is twice the gap g, W is
-// sqrt(x^2 + g^2): sqrt(2 g/curvature) of small gaps between round bodies. Where the way to x differs in its two
-// directions the shorter counts; it ends where one of the bodies does. Of overlapping bodies W belongs to a gap of 1e-9
-// times the smaller inradius. To 5 %. Cost: some 10 microseconds.
+// The width W of the gap: the shortest length over which densities vary there. W = sqrt(x^2 + g^2), where x is the
+// distance along the tangent at which the boundaries are 2 g apart: sqrt(2 g/curvature) for small gaps g. If the two
+// directions differ, the shorter x counts; x ends where one of the bodies does. If the bodies overlap, W is that of a
+// gap of 1e-9 times the smaller inradius. Accurate to 5 %. Cost: some 10 microseconds.
 double contact_width(const Facing& facing, const Body& a, const Body& b);
 double contact_width(const Facing& facing, const Body& a, const Container& b);
 

@@ -20,12 +20,12 @@ struct GridPoint {
 
 struct GridFlow {
   std::vector<GridPoint> points;  // row by row from below
-  std::vector<Wrench> wrenches;   // of each body on the fluid: given ones of free bodies, reactions of fixed ones
+  std::vector<Wrench> wrenches;   // of each body on the fluid: those given for free bodies, reactions of fixed ones
 };
 
-// Solves for the flow at the poses of `bodies`, everything that drives it multiplied by `driving` and `contact`
-// forces and torques on the bodies (one each; empty: none), and evaluates it at points x points points of the
-// square, its sides included. The pressure of a bounded flow has a free constant.
+// Solves for the flow at the poses of `bodies`, with the background flow and the walls' velocities multiplied by `driving`
+// and with `contact` forces and torques on the bodies (one each; empty: none). Evaluates it at points x points points of
+// the square, its sides included. The pressure of a bounded flow has a free constant.
 // NumericalError when GMRES fails.
 GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
                       const std::vector<Wrench>& contact, const Square& square, int points);

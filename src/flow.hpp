@@ -18,7 +18,7 @@ enum class FlowKind {
 struct BackgroundFlow {
   FlowKind kind = FlowKind::none;
   double rate = 1.0;
-  double walls = 0.0;  // factor of the surface velocities of the walls
+  double walls = 0.0;  // factor of the walls' surface velocities
 
   // Velocity at the point x.
   Complex velocity(Complex x) const {
@@ -32,9 +32,9 @@ struct BackgroundFlow {
     return 0.0;
   }
 
-  // Velocity, its gradient and the pressure, which is 0 up to a constant. The Taylor-Green flow is held up by a
-  // body force that is no gradient, so that it has no pressure of a Stokes flow: 0 is a convention there, and the
-  // stress is that of the disturbance and the background's rate of strain.
+  // Velocity, its gradient and the pressure, which is 0 up to a constant. The Taylor-Green flow is driven by a body
+  // force that is not a gradient. It has no pressure of a Stokes flow, and 0 is a convention: the stress there is that
+  // of the disturbance and the background's rate of strain.
   PointFlow flow(Complex x) const {
     PointFlow result{velocity(x)};
     switch (kind) {

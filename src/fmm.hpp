@@ -6,13 +6,13 @@
 //
 // Accuracy: the largest error over the targets, divided by the largest value there, of velocity, pressure
 // and velocity gradient, is below the tolerance (measured: 3 to 50 times below, from 1e-3 to 1e-12, for
-// uniform points, points on bodies and bodies in an annulus, random and smooth strengths). Where
-// everything cancels at all targets, no such bound can hold; rounding ends it at about 1e-14.
+// uniform points, points on bodies and bodies in an annulus, random and smooth strengths). No such bound
+// holds if the flow cancels at all targets. Rounding limits the accuracy to about 1e-14.
 //
 // Cost on one core with 512-bit vectors, for stresslets and velocity: 0.10, 0.2, 0.25 and 0.3 microseconds a
-// point at tolerances 1e-3, 1e-6, 1e-9 and 1e-12; 2.5 times that for the gradient; a plan costs less than an
-// evaluation. About two thirds of it are multipole-to-local translations, bound by the multiply-add units,
-// the rest is near field; leaves hold 20 to 60 points, where the sum of the two is flat. Points closer than
+// point at tolerances 1e-3, 1e-6, 1e-9 and 1e-12; 2.5 times that for the gradient. A plan costs less than an
+// evaluation. Multipole-to-local translations take about two thirds of the time and are bound by the multiply-add
+// units. The near field takes the rest. Leaves hold 20 to 60 points, where the sum of both is flat. Points closer than
 // 1e-14 of the largest coordinate share a leaf, whose pairs are summed directly.
 #pragma once
 
@@ -22,17 +22,17 @@
 
 namespace stokes {
 
-// From this many points on, an evaluation is faster than the direct sum at any tolerance, the plan being
-// paid for after ten (measured crossover of the evaluation: 350 points at 1e-3 to 600 at 1e-12).
+// From this many points on, an evaluation is faster than the direct sum at any tolerance. Ten evaluations make up for
+// the plan (measured crossover of the evaluation: 350 points at 1e-3 to 600 at 1e-12).
 inline constexpr int fmm_crossover = 1000;
 
 struct FmmOptions {
   double tolerance = 1e-9;  // see above; 1e-13 to 0.1
 };
 
-// All that depends on the points only: tree, interaction lists, translation tables.
+// Everything that depends on the points only: tree, interaction lists, translation tables.
 //
-// A plan also owns the memory of its evaluations: one at a time for each plan.
+// A plan also owns the memory of its evaluations, so that only one evaluation of a plan may run at a time.
 class FmmPlan {
  public:
   // Targets are the sources. Raises InputError for a tolerance out of range, and for coordinates that are
@@ -43,8 +43,8 @@ class FmmPlan {
   FmmPlan(FmmPlan&&) noexcept;
   FmmPlan& operator=(FmmPlan&&) noexcept;
 
-  // Flow at all targets, in the order of the targets. Sources without force and torque cost nothing in the
-  // part of Stokeslets and rotlets. Threaded; the result does not depend on the number of threads, nor on
+  // Flow at all targets, in the order of the targets. The sum of Stokeslets and rotlets skips sources without force
+  // and torque. Threaded; the result does not depend on the number of threads or on
   // earlier evaluations. Raises InputError for strengths of the wrong number, NumericalError for strengths
   // that are not finite.
   void evaluate(const SourceStrengths& strengths, FlowOutput output, FlowFields& fields) const;

@@ -21,13 +21,13 @@ struct ExpansionFrame {
   int order, stride;
 };
 
-// Each adds the expansion of the sources in a range (not empty) to `to`.
+// Each function adds the expansion of the sources in a range (not empty) to `to`.
 void add_to_multipole(const ExpansionFrame& frame, const StressletArrays& s, PointRange range, double* to);
 void add_to_multipole(const ExpansionFrame& frame, const PointForceArrays& s, PointRange range, double* to);
 void add_to_local(const ExpansionFrame& frame, const StressletArrays& s, PointRange range, double* to);
 void add_to_local(const ExpansionFrame& frame, const PointForceArrays& s, PointRange range, double* to);
 
-// Each adds the flow of an expansion at a pack of points to `sum`. with_logarithm: a_0 is not zero.
+// Each function adds the flow of an expansion at a pack of points to `sum`. with_logarithm: a_0 is not zero.
 void add_local_flow(const ExpansionFrame& frame, const double* from, Pack x, Pack y, VelocityPack& sum);
 void add_local_flow(const ExpansionFrame& frame, const double* from, Pack x, Pack y, GradientPack& sum);
 void add_multipole_flow(const ExpansionFrame& frame, const double* from, bool with_logarithm, Pack x, Pack y,

@@ -1,4 +1,4 @@
-// Strengths of point sources in the order of a quadtree, as the kernels take them.
+// Strengths of point sources, sorted in the order of a quadtree for the kernels.
 #pragma once
 
 #include <vector>
@@ -22,7 +22,7 @@ class SortedStrengths {
   // Stokeslets and rotlets: only the sources with a force or a torque, in the order of the tree.
   bool has_forces() const { return has_forces_; }
   const PointForceArrays& forces() const { return forces_; }
-  // Where those among a range of all sources are.
+  // The range of forces() that belongs to a range of all sources.
   PointRange forces_among(PointRange range) const {
     if (!has_forces_) return {};
     return {rank_[range.begin], rank_[range.end]};
@@ -35,7 +35,7 @@ class SortedStrengths {
   bool has_stresslets_ = false, has_forces_ = false;
   AlignedVector nx_, ny_, ex_, ey_;
   AlignedVector x_, y_, fx_, fy_, torque_;
-  std::vector<int> rank_;  // how many of the sources before each, in the order of the tree
+  std::vector<int> rank_;  // number of sources with force or torque before each one, in the order of the tree
   StressletArrays stresslets_{};
   PointForceArrays forces_{};
 };

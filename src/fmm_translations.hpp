@@ -8,14 +8,14 @@
 // Of the logarithms only 2 a_0 log|z - c| acts on u; together with the constant -a_0 that belongs to every
 // Stokeslet it is filed under A_0, so no branch is ever chosen.
 //
-// Every translation by s (in units of h of the larger box) first moves the centre of psi,
-//   b_k += conj(s) c_k,  c_1 = -a_0, c_k = (k - 1) a_{k-1}   (multipole; s = old centre - new centre)
+// A translation by s (in units of h of the larger box) first moves the centre of psi, with r = 2s, the shift in units of
+// the child, from child to parent, and r = s between boxes of one size:
+//   b_k += conj(r) c_k,  c_1 = -a_0, c_k = (k - 1) a_{k-1}   (multipole; s = old centre - new centre)
 //   B_l += conj(s) (l + 1) A_{l+1}                           (local; s = new centre - old centre)
-// and then acts on both series alike, as a real matrix between two complex diagonals that hold the powers
-// of s:
-//   multipole to multipole  a'_l = s^l  [-a_0/l + Sum_{k=1}^l C(l-1, k-1) s^-k a_k]
+// It then acts on both series alike, as a real matrix between two complex diagonals of powers of the shift:
+//   multipole to multipole  a'_l = s^l  [-a_0/l + Sum_{k=1}^l C(l-1, k-1) (2s)^-k a_k]
 //   multipole to local      A_l  = s^-l [-a_0/l + Sum_{k=1}^P (-1)^k C(l+k-1, k-1) s^-k a_k]
-//   local to local          A'_l = s^-l Sum_{k=l}^P C(k, l) s^k A_k
+//   local to local          A'_l = (2s)^-l Sum_{k=l}^P C(k, l) s^k A_k
 // One matrix serves all boxes; the diagonals depend on the place of the two boxes only.
 #pragma once
 
@@ -31,8 +31,8 @@ namespace stokes {
 inline constexpr int largest_order = 47;
 
 // Coefficients 0 ... order of phi and psi of all boxes: for each box the real and imaginary parts of phi,
-// then of psi, each padded with zeros to a multiple of eight. Before each box there are zeros that nobody writes, which
-// the shifted loads of its first coefficients read, with weight zero.
+// then of psi, each padded with zeros to a multiple of eight. Each box is preceded by zeros that are never written. Shifted
+// loads of its first coefficients read them, with weight zero.
 class Expansions {
  public:
   static int padded(int order) { return (order + 8) / 8 * 8; }
@@ -56,7 +56,7 @@ class Translations {
 
   int order() const { return order_; }
 
-  // Each adds the translated expansion `from` to `to` (both with padded(order) coefficients a part);
+  // Each function adds the translated expansion `from` to `to` (both with padded(order) coefficients a part).
   // `child` is the quadrant, 0 to 3, of the smaller box. with_logarithm: a_0 is not zero.
   void multipole_to_multipole(const double* from, int child, double* to) const;
   void multipole_to_local(const double* from, int offset, bool with_logarithm, double* to) const;

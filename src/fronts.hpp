@@ -1,4 +1,4 @@
-// Every boundary of a suspension with what it has in front of it.
+// The close neighbours of every boundary of a suspension.
 #pragma once
 
 #include <vector>
@@ -7,15 +7,15 @@
 
 namespace stokes {
 
-struct Front {
+struct Front {          // a neighbour `other` in front of `boundary`
   int boundary, other;  // bodies, then the container
   double alpha;         // of the boundary's nearest point
   double width;         // W of the gap (facing.hpp)
   double gap, curvature;
 };
 
-// Of every boundary those within its `reach`, a length for each of the bodies and the container; negative: none. Ordered
-// by pairs. Cost: a neighbour search and a facing for each pair found.
+// For every boundary the neighbours within its `reach`: one length for each body and the container, negative for none.
+// Ordered by pairs. Cost: a neighbour search and a facing for each pair found.
 std::vector<Front> fronts(const Suspension& bodies, const std::vector<double>& reach);
 
 // The shapes of the bodies and the container.

@@ -5,7 +5,7 @@
 // is the separation of the bodies along n, and their gap is its maximum over n: the distance of separated
 // bodies; minus the penetration depth, the shortest translation that parts them, of overlapping ones. It is
 // smooth through contact; in deep overlap it has kinks where two directions tie.
-// A body is an ellipse or a disc, and no function here needs the aspect ratio to be moderate.
+// A body is an ellipse or a disc of any aspect ratio.
 #pragma once
 
 #include <optional>

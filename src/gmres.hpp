@@ -10,10 +10,10 @@ namespace stokes {
 using LinearOperator = std::function<void(const Vector& in, Vector& out)>;
 
 struct GmresOptions {
-  double tolerance = 1e-8;   // on the true residual |b - A x| / s, s = |b| or `scale`
+  double tolerance = 1e-8;   // of the true residual |b - A x| / s, where s is |b| or `scale`
   int max_iterations = 1000;
   int restart = 300;         // largest Krylov basis kept
-  double scale = 0.0;        // if > 0: s, of a sum that A x is a part of; |b| / 1000 at least
+  double scale = 0.0;        // if > 0: s, the size of the sum that A x is a part of; at least |b| / 1000
 };
 
 struct GmresResult {
@@ -23,10 +23,10 @@ struct GmresResult {
   bool converged = false;
 };
 
-// Solves A x = b from the initial guess `guess` (empty: zero) with A M (M^-1 x) = b, M the approximate
-// inverse `preconditioner`, of which only the directions M v are used, so that it may be of low precision. The residual
-// is always that of the unpreconditioned system, and convergence is declared only after it has been evaluated; b = 0
-// answers x = 0. Deterministic for any number of threads. Ends with an Interruption when a signal asks for it.
+// Solves A x = b as A M (M^-1 x) = b from the initial guess `guess` (empty: zero). M is the approximate inverse
+// `preconditioner`. Only the directions M v are used, so M may have low precision. The residual is always that of the
+// unpreconditioned system, and convergence is declared only after it has been evaluated. If b = 0 then x = 0. The result
+// does not depend on the number of threads. Throws an Interruption when a signal asks for it.
 GmresResult gmres(const LinearOperator& A, const LinearOperator& preconditioner, const Vector& b,
                   const Vector& guess, const GmresOptions& options);
 

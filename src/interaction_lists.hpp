@@ -9,7 +9,7 @@
 //               multipole to points
 //   coarse      the reverse, source leaf larger than the target box: points to local
 //   near        the rest: points to points
-// Fine and coarse pairs of few points go to the near list where that costs less.
+// Fine and coarse pairs with few points are moved to the near list where that costs less.
 #pragma once
 
 #include <span>
@@ -46,7 +46,7 @@ struct InteractionLists {
   Rows<PointRange> near;  // for each leaf: sources other than its own, in increasing order
 };
 
-// `order`: terms of an expansion, on which the cheapest way for few points depends. Only pairs with
+// `order`: terms of an expansion, which decides how few points make the near list cheaper. Only pairs with
 // sources on one side and targets on the other are listed. Cost O(boxes).
 InteractionLists find_interactions(const Quadtree& tree, int order);
 

@@ -1,4 +1,4 @@
-// Signals that ask the program to end, and the work that ends early for them.
+// Signals that ask the program to end, and how long computations notice them.
 #pragma once
 
 #include <atomic>
@@ -15,24 +15,24 @@ struct Interruption {
 };
 
 namespace detail {
-inline std::atomic<int> caught_signal = 0;  // a handler reaches nothing but what is global
+inline std::atomic<int> caught_signal = 0;  // global, because a signal handler can reach nothing else
 }
 
-// Throws an Interruption if a signal was caught. Called by loops that may be long, at a place where they can be left:
-// whatever is under way is given up.
+// Throws an Interruption if a signal was caught. Long loops call it where they can be left. The work under way is
+// abandoned.
 inline void end_if_interrupted() {
   if (const int signal = detail::caught_signal) throw Interruption{signal};
 }
 
-// Catches SIGINT, SIGTERM, SIGHUP (a terminal that is closed) and SIGPIPE (an output that nobody reads) while it lives,
-// unless they were ignored before; a second one, more than a second later, ends the program at once. SIGXFSZ is ignored:
-// a file at the limit of its size is a write error like a full disk.
+// While it lives, catches SIGINT, SIGTERM, SIGHUP (closed terminal) and SIGPIPE (output that nobody reads), except those
+// that were ignored before. A second signal, more than a second later, ends the program at once. SIGXFSZ is ignored: a
+// file that reaches its size limit is then a write error, like a full disk.
 class SignalGuard {
  public:
   SignalGuard();
   SignalGuard(const SignalGuard&) = delete;
   SignalGuard& operator=(const SignalGuard&) = delete;
-  ~SignalGuard();  // everything is as it was before
+  ~SignalGuard();  // restores the former handlers
 
  private:
   static constexpr int signals_[] = {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXFSZ};

@@ -58,8 +58,8 @@ LcpResult solve_lcp(const Matrix& B, const Vector& b, LcpMethod method = LcpMeth
 // non-finite entry or their sizes differ.
 double lcp_residual(const Matrix& B, const Vector& b, const Vector& z);
 
-// In units of sqrt(B_ll), which make it independent of those of single contacts, the largest multiplier over the
-// worst violation. A jam that rounding makes solvable needs the reciprocal of that rounding.
+// The largest multiplier over the worst violation, both in units of sqrt(B_ll), which makes the ratio independent of the
+// scales of single contacts. A jam that only rounding makes solvable has a ratio as large as the inverse of that rounding.
 inline double amplification(const Matrix& B, const Vector& b, const Vector& z) {
   const Vector scale = B.diagonal().cwiseSqrt();
   const double violation = -b.cwiseQuotient(scale).minCoeff();

@@ -1,18 +1,18 @@
-// Nodes of a closed curve, at equal steps of its parameter or drawn towards some of its points.
+// Nodes of a closed curve, at equal steps of its parameter or concentrated around some of its points.
 //
-// The nodes stand at equal steps of s, and s -> alpha maps the circle to itself: with q_k = N_k / N_0 and kernels of mean 1
+// The nodes are at equal steps of s. The map s -> alpha is, with q_k = N_k / N_0 and kernels K_k of mean 1,
 //   (1 + Sum_k q_k) s = alpha + Sum_k q_k I_k(alpha - alpha_k) + constant,   I_k(t) = Int_0^t K_k,
 //   K = m / sqrt(w^2 + 4 sin^2(t/2)),   m = AGM(sqrt(w^2 + 4), w).
-// Around alpha_k nodes are as dense as 1/sqrt(w_k^2 + t^2): a function of the distance from a contact, which varies over
-// w at the contact and over t at a distance t from it, is resolved alike at every distance, with O(log 1/w) nodes. The
-// map is analytic, so that the trapezoid rule keeps its accuracy.
+// Around alpha_k the density of nodes is proportional to 1/sqrt(w_k^2 + t^2). A function that varies over w at a contact
+// and over t at a distance t from it is then resolved equally well at every distance, with O(log 1/w) nodes. The map is
+// analytic, so that the trapezoid rule keeps its accuracy.
 #pragma once
 
 #include <vector>
 
 namespace stokes {
 
-// A place of a boundary, in its parameter, with `points` nodes of its own drawn to it; width > 0 in the parameter.
+// `points` additional nodes around the point `alpha` of a boundary. The width > 0 is measured in the parameter.
 struct NodeCluster {
   double alpha;
   double width;
@@ -21,7 +21,7 @@ struct NodeCluster {
   bool operator==(const NodeCluster&) const = default;
 };
 
-// Nodes of a boundary: N_0 = `points` that are everywhere and N_k of each cluster. Their sum is even.
+// Nodes of a boundary: N_0 = `points` all around it and N_k for each cluster. Their sum is even.
 struct Discretisation {
   int points = 0;
   std::vector<NodeCluster> clusters;
@@ -35,8 +35,8 @@ struct Discretisation {
 struct MappedNode {
   double alpha;  // in [0, 2 pi), up to round-off
   double first, second;
-  int cluster;      // the nearest; -1: there are none
-  double distance;  // alpha - alpha_k of that cluster, in (-2 pi, 2 pi), to its own relative accuracy
+  int cluster;      // the nearest one; -1 without clusters
+  double distance;  // alpha - alpha_k of that cluster, in (-2 pi, 2 pi), accurate relative to its own size
 };
 
 class NodeMap {

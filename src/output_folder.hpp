@@ -1,10 +1,10 @@
-// The folder of a run's results: who may write there, and the record of what was run.
+// The folder of a run's results: its lock, and the record of the run.
 //
-// Beside the results a run leaves three files:
+// Beside the results a run writes three files:
 //   run.txt     version, compiler and command, every key of the case, and a checksum of the bodies
-//   case.txt    a case file that makes the same run again, from
+//   case.txt    a case file that repeats the run with
 //   bodies.csv  its bodies
-// A case or bodies that are read from these very places stay as they are.
+// If the case or the bodies are read from these very files, they are not rewritten.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,12 @@
 
 namespace stokes {
 
-// Keeps other runs out of a folder for as long as it lives: the file `lock` in it, which names this process, is locked
-// by the operating system. When a process ends in any way its lock ends too, so that the file of a killed run keeps
-// nobody out. Where the file system has no locks there is none.
+// Keeps other runs out of a folder while it lives. The operating system locks the file `lock` in the folder, which names
+// this process. The lock ends with its process, however that ends, so the file of a killed run keeps nobody out. There is
+// no protection on file systems without locks.
 class FolderLock {
  public:
-  // Makes the folder if it is missing. InputError, with the other process, when the folder is locked.
+  // Creates the folder if it is missing. InputError, which names the other process, if the folder is locked.
   explicit FolderLock(const std::filesystem::path& folder);
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
@@ -33,13 +33,13 @@ class FolderLock {
 
 class RunRecord {
  public:
-  // Of a run of this case from these bodies.
+  // The record of a run of this case with these initial bodies.
   RunRecord(const Case& c, const Suspension& initial);
 
-  // InputError where the folder holds results, unless they are of this run or may be overwritten.
+  // InputError if the folder holds results of another run that may not be overwritten.
   void check_overwriting() const;
 
-  // Removes the results of earlier runs except the tables, which are made anew: pictures and fields.
+  // Removes pictures and fields of earlier runs. The tables are replaced anyway.
   void remove_results() const;
 
   // Writes run.txt, case.txt and bodies.csv. InputError or NumericalError on a write error.
@@ -51,10 +51,10 @@ class RunRecord {
   const Case& case_;
   std::filesystem::path folder_;
   std::string bodies_;                    // content of bodies.csv
-  std::vector<std::string> description_;  // what makes two runs the same
+  std::vector<std::string> description_;  // equal for two runs with the same results
 };
 
-// Arguments as a line that a shell reads back.
+// The arguments as one line, quoted for a shell.
 std::string command_line(const std::vector<std::string>& arguments);
 
 }  // namespace stokes

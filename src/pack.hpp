@@ -1,4 +1,4 @@
-// A vector register full of doubles. Arithmetic on packs is element by element.
+// A vector register of doubles. Arithmetic on packs is element by element.
 #pragma once
 
 #include <cstddef>
@@ -59,15 +59,15 @@ using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
 // All lanes equal.
 inline Pack broadcast(double value) { return value - Pack{}; }
 
-// Keeps a loaded pack in a register: g++ would rather load it again for each of its uses, and loops with
-// several products of one load are bound by the loads then.
+// Keeps a loaded pack in a register. Otherwise g++ loads it again for each of its uses, which makes loops with
+// several products of one load bound by the loads.
 inline void keep_in_register([[maybe_unused]] Pack& v) {
 #if defined(__AVX512F__)
   asm("" : "+v"(v));
 #endif
 }
 
-// body(0), ..., body(count - 1), the index a constant: arrays of packs indexed by it stay in registers.
+// Calls body(0), ..., body(count - 1) with a constant index, so that arrays of packs indexed by it stay in registers.
 template <int count, class Body>
 inline void unrolled(const Body& body) {
   [&]<int... i>(std::integer_sequence<int, i...>) {

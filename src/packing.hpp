@@ -39,8 +39,8 @@ struct PlacedBodies {
   int tries = 0;             // up to the last body placed
 };
 
-// Places the bodies of `placement` between the walls, clear of the bodies `held` there. Cost: the tries times the number
-// of bodies. InputError unless 0 <= nearest <= farthest; NumericalError when max_tries found no place for a body.
+// Places the bodies of `placement` between the walls and away from the bodies `held`. Cost: tries times bodies.
+// InputError unless 0 <= nearest <= farthest. NumericalError if max_tries tries found no place for a body.
 PlacedBodies place_randomly(const RandomPlacement& placement, const Annulus& annulus, const std::vector<Body>& held = {});
 
 // `count` copies of a body, their centres equally spaced on a circle around the origin, the first on the

@@ -1,4 +1,4 @@
-// Velocity, pressure and velocity gradient at a point, and what follows from them.
+// Velocity, pressure and velocity gradient at a point, and the stress, vorticity and strain rate derived from them.
 //
 // The viscosity is 1: sigma = -p I + grad u + (grad u)^T, rate of strain E = (grad u + (grad u)^T)/2.
 // In terms of Goursat functions phi and psi, analytic in z,
@@ -56,8 +56,8 @@ inline Complex traction(const Stress& sigma, Complex n) {
   return {sigma.xx * n.real() + sigma.xy * n.imag(), sigma.xy * n.real() + sigma.yy * n.imag()};
 }
 
-// A flow given in the frame of a body whose first axis points along the unit vector `axis`, in the laboratory's:
-// u = axis u_body, with the derivatives along the laboratory's axes.
+// Transforms a flow from the frame of a body, whose first axis points along the unit vector `axis`, to the laboratory
+// frame: u = axis u_body, with derivatives along the axes of the laboratory.
 inline PointFlow turned(const PointFlow& flow, Complex axis) {
   const double c = axis.real(), s = axis.imag();
   return {axis * flow.velocity, flow.pressure, axis * (c * flow.velocity_x - s * flow.velocity_y),

@@ -13,11 +13,11 @@ namespace stokes {
 enum class PreconditionerKind {
   none,
   block,  // D^-1: each boundary's own block, by the inverse that its shape carries
-  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1): their 2 x 2 block systems to 1e-3. Where gaps are
-          // smallest, the same for groups of boundaries, exactly
+  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1), with 2 x 2 block systems solved to 1e-3. For the
+          // smallest gaps the same with groups of boundaries, solved exactly
 };
 
-// Two boundaries beside each other, the gap between them in units of its radius of curvature.
+// Two close boundaries and the gap between them, divided by its radius of curvature (facing.hpp).
 struct ClosePair {
   int i, j;
   double relative_gap;
@@ -25,26 +25,26 @@ struct ClosePair {
 
 class Preconditioner {
  public:
-  // The operator's block between nodes of two boundaries, densities in their frames: 2 rows x 2 columns.
+  // The block of the operator between nodes of two boundaries, for densities in body frames: 2 rows x 2 columns reals.
   using BlockFunction =
       std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
-  // `pairs`: the close pairs of boundaries, for PreconditionerKind::pair. Those below a relative gap of 1e-3 are joined to
-  // groups, the closest first, of up to 8 boundaries and 2000 unknowns, each with a dense factorisation. Of a large circle only the nodes beside
-  // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), N_i being the smaller number of nodes and r that of
-  // fields that pass; without the second term where j is a circle.
+  // `pairs`: the close pairs, for PreconditionerKind::pair. Those below a relative gap of 1e-3 are joined to groups, the
+  // closest first, of up to 8 boundaries and 2000 unknowns, each with a dense factorisation. Of a large circle only the
+  // nodes beside the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), where N_i is the smaller number of
+  // nodes and r the rank of the interaction. There is no second term if j is a circle.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<ClosePair>& pairs, const BlockFunction& block);
 
-  // out = M in, densities of a set of boundaries in their frames: pairs with both members in it count. Independent of
-  // the number of threads. Groups count where all of their members are in the set.
+  // out = M in, for densities of a set of boundaries in body frames. Pairs and groups count if all their members are in
+  // the set. The result does not depend on the number of threads.
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:
-  // Far fewer fields than nodes pass between the members, C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With
+  // The blocks between the members have a low rank, C_ij = P_i Q_i^T and C_ji = P_j Q_j^T. With
   // Y = D_j^-1 C_ji = B Q_j^T and A = D_i^-1 P_i (I - Q_i^T Y D_i^-1 P_i)^-1 the solution of z + D^-1 C z = d is
   //   z_i = d_i - A Q_i^T (d_j - Y d_i),  z_j = d_j - Y z_i.
-  // In single precision, which halves what they cost to make and to apply.
+  // Single precision halves the cost of making and applying them.
   struct Pair {
     int i, j;
     std::vector<int> part;  // nodes of j that take part
@@ -54,7 +54,7 @@ class Preconditioner {
     Eigen::VectorXf of_i, of_j;
   };
 
-  // The condition of the equations grows like gap^-1.5: factors in double precision, of 1 + D^-1 C.
+  // Factors of 1 + D^-1 C, in double precision because the condition of the equations grows like gap^-1.5.
   struct Group {
     std::vector<int> members;
     std::vector<Eigen::Index> first;  // of each member's reals; the last: of all

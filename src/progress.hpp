@@ -10,7 +10,7 @@ namespace stokes {
 
 class Progress {
  public:
-  // Of a run from start_time to end_time; `label` stands before every line.
+  // For a run from start_time to end_time. Every line begins with `label`.
   explicit Progress(double end_time, double start_time = 0.0, const std::string& label = {});
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -19,7 +19,7 @@ class Progress {
   // Time, step, contacts, iterations and the estimated end, at most ten times a second.
   void show(const StepRecord& record);
 
-  // Prints a line of its own, after the progress line if there is one.
+  // Prints a separate line, after the progress line if there is one.
   void message(const std::string& text);
 
  private:

@@ -1,4 +1,4 @@
-// Writes a run as it goes: trajectory.csv and steps.csv in one folder, every field a number or empty.
+// Writes trajectory.csv and steps.csv during a run. Every field is a number or empty.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace stokes {
 
-// Why the files of a run cannot be written to `folder`, or nothing; nothing is made or changed. The nearest
-// existing folder above must be writable, and what stands in the place of a file must be a writable file.
+// Says why the files of a run cannot be written to `folder`; empty if they can. Nothing is created or changed. The nearest
+// existing parent folder must be writable, and existing files of these names must be writable files.
 std::string why_not_writable(const std::filesystem::path& folder);
 
-// The folder, made where it is missing. InputError when it cannot be made or written.
+// Creates the folder if it is missing. InputError if it cannot be created or written.
 const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 
 // trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque
@@ -40,27 +40,27 @@ class Recorder {
   // Where the files of an unfinished run end.
   struct Position {
     std::uintmax_t trajectory_bytes = 0, steps_bytes = 0;
-    std::vector<Row> skipped;  // rows of the latest step that was left out
+    std::vector<Row> skipped;  // rows of the latest step between two outputs
   };
 
-  // Creates the folder where it is missing. InputError when it cannot be written.
+  // Creates the folder if it is missing. InputError if it cannot be written.
   Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns = StepsColumns::unbounded);
-  // Why the files in a folder are not those of a run that was at `position`, or nothing.
+  // Says why the files in a folder do not belong to a run that was at `position`; empty if they do.
   static std::string why_not_continued(const std::filesystem::path& folder, StepsColumns columns,
                                        const Position& position);
-  // Goes on with the files of a run that was at `position`; what they hold beyond is cut off.
+  // Continues the files of a run that was at `position`. Everything behind that position is cut off.
   Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Position& position);
 
   const Position& position() const { return position_; }
 
-  // Other processes see the rows when this returns. NumericalError on a write error: both files and position() are then
-  // those of the record before, and nothing more can be recorded.
+  // Other processes see the rows when this returns. NumericalError on a write error. Both files and position() are then
+  // those of the previous record, and nothing more can be recorded.
   void record(const StepRecord& record);
 
-  // Brings all rows to the disk. NumericalError on a write error.
+  // Returns when all rows are on disk. NumericalError on a write error.
   void sync();
 
-  // At the end of the work. NumericalError on a write error.
+  // Called at the end of the run. NumericalError on a write error.
   void close();
 
  private:
@@ -69,11 +69,11 @@ class Recorder {
   int output_every_;
   StepsColumns columns_;
   CsvWriter trajectory_, steps_;
-  std::vector<Row> skipped_;  // rows of the latest step that was left out; written if it is the last
+  std::vector<Row> skipped_;  // rows of the latest step between two outputs; written if it is the last step
   Position position_;         // after the latest record
 };
 
-// What every column of the two tables means, for users.
+// The meaning of every column of the two tables, for users.
 std::string columns_help();
 
 }  // namespace stokes

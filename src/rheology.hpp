@@ -1,6 +1,6 @@
-// What a suspension between two cylinders tells a rheologist: alignment, effective viscosity, bulk stress.
+// Rheology of a suspension between two cylinders: alignment, effective viscosity, bulk stress.
 //
-// Everything here is of the bodies that move, in the frame (r, theta) of the walls' common centre.
+// Everything refers to the bodies that move, in polar coordinates (r, theta) about the walls' common centre.
 #pragma once
 
 #include "stepper.hpp"
@@ -19,20 +19,20 @@ struct CouetteFlow {
   double inner_torque() const { return 4.0 * pi * B(); }              // of the inner cylinder on the fluid
 };
 
-// Of a suspension made by between_walls(): its inner wall is the last body.
+// For a suspension made by between_walls(), whose last body is the inner wall.
 CouetteFlow couette_flow(const Suspension& bodies);
 
 // Mean of cos 2 (theta_j - phi_j - pi/2), phi_j the polar angle of the centre: 1 when all long axes lie along the
 // circles around the walls' centre, -1 when all are radial, 0 for random directions. NaN without free bodies.
 double order_parameter(const Suspension& bodies);
 
-// Torque of the inner cylinder with the bodies over that without: the effective viscosity, the fluid's own being 1.
-// NaN where the cylinders turn together.
+// Torque of the inner cylinder with the bodies over that without: the effective viscosity in units of the fluid's.
+// NaN if the cylinders rotate together.
 double effective_viscosity(const Suspension& bodies, const StepOutcome& outcome);
-// The same from the outer cylinder, whose torque is the opposite when the bodies bear no torque.
+// The same from the outer cylinder. Its torque is opposite to the inner one's if the bodies bear no torque.
 double effective_viscosity_outer(const Suspension& bodies, const StepOutcome& outcome);
 
-// What the bodies add to the mean stress of the annulus, per area between the walls.
+// The bodies' contribution to the mean stress in the annulus, per area between the walls.
 struct BodyStress {
   double shear = 0.0;              // sigma_r_theta
   double normal_difference = 0.0;  // sigma_theta_theta - sigma_rr: along the flow less along its gradient

@@ -1,4 +1,4 @@
-// A case, run from its files to its results: what `simulate` and the experiments share.
+// Runs a case from its files to its results, for `simulate` and the experiments.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace stokes {
 
-// How the steps of a case are made.
+// The options of the simulation of a case.
 SimulationOptions options_of(const Case& c, const Suspension& bodies);
 
-// Runs a case, from the checkpoint in its output folder if there is one of the same run: with the results that an
-// uninterrupted run writes, to the byte. The record of the run goes into the folder, too (output_folder.hpp). Progress
-// and warnings go to stderr, progress lines behind `label`.
-// A signal (SignalGuard) gives the step under way up and ends the run with an Interruption, from which the same command
-// goes on. A checkpoint that cannot be written is a warning: the run, or what ended it, goes on.
-// InputError before anything is written, NumericalError after everything up to it is.
+// Runs a case. If its output folder holds a checkpoint of the same run, it continues from there and writes the same bytes
+// as an uninterrupted run. The record of the run is written to the folder, too (output_folder.hpp). Progress and warnings
+// go to stderr; progress lines begin with `label`.
+// A signal (SignalGuard) abandons the current step and ends the run with an Interruption. The same command then continues
+// the run. If a checkpoint cannot be written, a warning is printed and the run continues.
+// InputError before anything is written, NumericalError after all results up to the failure are written.
 RunSummary simulate_case(const Case& c, const std::string& label = {});
 
 }  // namespace stokes

@@ -1,8 +1,8 @@
-// Which numbers a suspension may have so that double precision has room for what is computed from them.
+// Checks that double precision suffices for the positions, sizes and speeds of a suspension.
 //
-// Positions are known to 1e-16 of their distance from the origin: beyond 1e8 semi-axes, bodies and the gaps between
-// them are known to no more than 1e-8 of a semi-axis. Speeds and their gradients enter by their squares, which
-// overflow or vanish far beyond 1e100 and 1e-100.
+// Positions have a relative precision of 1e-16. Beyond 1e8 semi-axes from the origin, bodies and the gaps between them
+// are therefore known to no more than 1e-8 of a semi-axis. Squares of speeds and velocity gradients are formed, which
+// overflow or underflow far above 1e100 and far below 1e-100.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace stokes {
 
-// Why the poses of the bodies are not known precisely enough, or nothing: the end of a message.
+// Says why the poses of the bodies are not known precisely enough, as the end of a message. Empty if they are.
 std::string lost_precision(const Suspension& bodies);
 
-// What of all that drives the fluid is too strong or too weak, or nothing: the end of a message.
+// Says what drives the fluid too strongly or too weakly, as the end of a message. Empty if nothing does.
 std::string out_of_scale(const Suspension& bodies, const BackgroundFlow& flow);
 
 }  // namespace stokes

@@ -1,4 +1,4 @@
-// Shapes of bodies: everything the package knows of a body's form is asked of this class.
+// Shapes of bodies: all that other files need to know of a body's geometry.
 #pragma once
 
 #include "base.hpp"
@@ -31,17 +31,17 @@ struct Shape {
   // Arclength of the boundary, to round-off.
   double perimeter() const;
 
-  // The boundary in the body frame (centre 0, angle 0), zeta = a cos(alpha) + i b sin(alpha): at its nodes, or at
-  // `upsampling` times as many equal steps of the same parameter (node_map.hpp).
+  // The boundary in the body frame (centre 0, angle 0), zeta = a cos(alpha) + i b sin(alpha), at its nodes or, with
+  // `upsampling` > 1, at that many times as many equal steps of the parameter s of its nodes (node_map.hpp).
   Curve curve(const Discretisation& nodes, int upsampling = 1) const;
   Curve curve(int points) const;
 
-  // alpha in [0, 2 pi) of the point that reaches farthest along n, and what belongs to a value of alpha.
+  // alpha in [0, 2 pi) of the point that reaches farthest along n; point and derivative at a given alpha.
   double parameter(Complex n) const;
   Complex point(double alpha) const;
   Complex derivative(double alpha) const;  // zeta'(alpha)
-  // zeta(alpha + t) - zeta(alpha) in the frame whose first axis is the tangent at alpha. Each component, along the
-  // tangent and across, to its own relative accuracy for any t.
+  // zeta(alpha + t) - zeta(alpha) in the frame whose first axis is the tangent at alpha. Both components, along the
+  // tangent and across it, are accurate relative to their own size for any t.
   Complex offset(double alpha, double t) const;
 };
 

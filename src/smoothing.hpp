@@ -2,9 +2,9 @@
 //
 // A pyramid of local linear fits: with s_0 the values, s_{j+1} is the fit through s_j, with the kernel 1 - (x/w)^2 of
 // half-width w = 3 spacings of s_j, at every second of its places; the detail d_j = s_j - (fit through s_{j+1} at the
-// places of s_j) is kept at all of them, so that values and transform are equivalent. Smoothing keeps of each detail what
-// exceeds a threshold (soft) and adds up again. (In the manner of Jansen and Amghar, Multiscale local polynomial
-// decompositions using bandwidths as scales.)
+// places of s_j) is kept at all of them, so that values and transform are equivalent. Smoothing applies a soft threshold
+// to the details and adds everything up again. (After Jansen and Amghar, Multiscale local polynomial decompositions using
+// bandwidths as scales.)
 #pragma once
 
 #include <vector>
@@ -16,15 +16,15 @@ struct MultiscaleFit {
   std::vector<std::vector<double>> details;  // d_0 (as many as values), d_1, ...
 };
 
-// Values at equal steps; `levels` >= 0, fewer where there are not 8 values left for the next. Cost O(n).
+// Values at equal steps. `levels` >= 0; the pyramid has fewer if less than 8 values are left for the next. Cost O(n).
 MultiscaleFit multiscale_fit(const std::vector<double>& values, int levels);
 
-// The values again, what each detail exceeds its threshold by; `thresholds`: one for each level of details.
+// The values from the details after soft thresholding; `thresholds`: one for each level of details.
 std::vector<double> multiscale_sum(const MultiscaleFit& fit, const std::vector<double>& thresholds);
 
-// Smoothed values with all details of `levels` levels below the universal threshold sigma sqrt(2 ln n) left out, sigma
-// the median of the moduli of the details of their level over 0.6745. What varies over fewer than about ten times the
-// widest fit, 3 2^levels values to either side, is smoothed too. NaN values are refused (std::invalid_argument).
+// The values smoothed over `levels` levels with the universal threshold sigma sqrt(2 ln n), where sigma is the median
+// modulus of the details of a level over 0.6745. Features narrower than about ten times the widest fit (3 2^levels values
+// to either side) are smoothed, too. NaN values are refused (std::invalid_argument).
 std::vector<double> smoothed(const std::vector<double>& values, int levels);
 
 }  // namespace stokes

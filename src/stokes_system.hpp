@@ -57,7 +57,7 @@ class StokesSystem {
   StokesSystem(const StokesSystem&) = delete;
   StokesSystem& operator=(const StokesSystem&) = delete;
 
-  // Discretises every body with its nodes, or all with `points`, and the container. Cost O(N) plus the
+  // Discretises every body with its own nodes, or every body with `points`, and the container. Cost O(N) plus the
   // close-evaluation blocks of boundaries nearer than a few point spacings.
   StokesSystem(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeCache& shapes,
                const StokesOptions& options);
@@ -70,39 +70,39 @@ class StokesSystem {
 
   // Rigid velocities and densities for a background flow and given forces and torques (one per body, not read for
   // fixed ones; empty: none). `guess`: a density to start from (empty: zero). The tolerance is relative to the norm of
-  // the data or to `scale`, if given: the data_norm of what the solution is added to. NumericalError when
+  // the data or, if given, to `scale`: the data_norm of the solution that this one is added to. NumericalError when
   // GMRES fails.
   StokesSolution solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& guess = {}, double scale = 0.0) const;
 
-  // The operator and the right preconditioner that GMRES works with: reals of all densities, interleaved, in and out.
+  // The operator and the right preconditioner of GMRES. Input and output are all densities as interleaved reals.
   void apply(const Vector& in, Vector& out) const { apply(all_, in, out); }
   void precondition(const Vector& in, Vector& out) const { preconditioner_->apply(all_, in, out); }
 
-  // One block-Jacobi sweep of the same equations: each boundary's own block is solved for, the double layers of
-  // the others are taken from `lagged` (a density of this system; empty: zero). Locally implicit stepping.
+  // One block-Jacobi sweep of the same equations, as in locally implicit stepping: each boundary's own block is solved
+  // with the double layers of the others taken from `lagged` (a density of this system; empty: zero).
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& lagged) const;
 
-  // The answer to wrenches of the bodies that they act on and of those around them, within about a body's length, as
-  // if there were no others, to the given tolerance; the rest does not move. Cost: none that grows with the number of
-  // bodies but for a look at each.
+  // The response to wrenches of the bodies that they act on and of the bodies within about a body's length, as if there
+  // were no others. The others do not move. Solved to the given tolerance. Apart from finding these bodies the cost
+  // does not depend on the number of bodies.
   StokesSolution solve_nearby(const std::vector<Wrench>& wrenches, double tolerance) const;
 
-  // For any velocity on the boundaries (all nodes, laboratory frame) in place of that of the flow and the walls.
+  // The same for any velocity on the boundaries (all nodes, laboratory frame) instead of that of the flow and the walls.
   StokesSolution solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess = {}) const;
 
-  // Velocity, pressure and gradient at points in the fluid or on its boundary (there the fluid's own limits),
-  // accurate at any distance from a boundary. In a container the pressure is that of N0's choice, up to a constant.
-  // Cost O(points + nodes) by the fast multipole method, and O(N^2) for each boundary near a point.
+  // Velocity, pressure and gradient at points in the fluid or on a boundary (limits from the fluid), accurate at any
+  // distance from a boundary. In a container the pressure has a free constant. Cost O(points + nodes) by the fast
+  // multipole method; each point near a boundary sums all other nodes directly, and each such boundary costs O(N^2).
   std::vector<PointFlow> flow(const std::vector<Complex>& points, const ComplexVector& density,
                               const BackgroundFlow& background, const std::vector<Wrench>& wrenches) const;
 
-  // Force and torque (about its centre) of the container on the fluid: what balances all others, since a double layer
-  // exerts none. Zero without a container.
+  // Force and torque (about its centre) of the container on the fluid. They balance those of all bodies, since a double
+  // layer exerts none. Zero without a container.
   Wrench container_wrench(const ComplexVector& density, const std::vector<Wrench>& wrenches) const;
 
-  // Forces and torques of the fixed bodies on the fluid that a density stands for; zero for free bodies.
+  // Forces and torques of the fixed bodies on the fluid, from their densities. Zero for free bodies.
   std::vector<Wrench> reactions(const ComplexVector& density) const;
 
   // Stresslets S_11 + i S_12 of the bodies about their centres, laboratory frame:
@@ -112,8 +112,8 @@ class StokesSystem {
   // Share of the density's Fourier energy, rigid motions apart, in the top third of the modes
   // (|k| > N/3): the largest over the bodies. A resolution indicator.
   double density_tail(const ComplexVector& density) const;
-  // Of each boundary: max_{|k| > 0.4 N} |eta_k| / max_{k != 0} |eta_k| of its modes in the parameter of its nodes; 0 where
-  // the density is round-off beside that of others.
+  // For each boundary max_{|k| > 0.4 N} |eta_k| / max_{k != 0} |eta_k|, with the modes in the parameter s of its nodes. 0
+  // for a density that is round-off compared with the others.
   std::vector<double> density_tails(const ComplexVector& density) const;
 
  private:

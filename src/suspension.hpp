@@ -19,8 +19,8 @@ struct Pose {
   Complex axis() const { return std::polar(1.0, angle); }
 };
 
-// Velocity of a wall's surface, the wall itself staying where it is (the nodes of one that turns are points of the
-// surface, so that bodies carried along with it keep their places among them):
+// Velocity of a wall's surface. The wall itself stays where it is. The nodes of a rotating wall move with its surface, so
+// that they stay beside the bodies that it carries along:
 //   u(x) = angular_velocity perp(x - c) + source (x - c) / (2 pi |x - c|^2),  c the wall's centre.
 struct SurfaceMotion {
   double angular_velocity = 0.0;
@@ -39,7 +39,7 @@ struct Body {
   Pose pose;
   Complex force{0.0, 0.0};  // external force on the body
   double torque = 0.0;      // external torque on the body about its centre
-  bool fixed = false;       // does not move, whatever the force on it; may have a surface that does
+  bool fixed = false;       // does not move, whatever the force on it; its surface may move
   SurfaceMotion surface{};  // of a fixed body
   int points = 0;           // on its boundary; 0: as many as on every body
 };
@@ -53,7 +53,7 @@ struct Container {
   double angle = 0.0;  // by which the surface has turned
 };
 
-// The container in the place of a body's index: the second of a pair, after every body. It is an entry of no array.
+// Stands for the container where a pair has the index of its second body. It is larger than any index and in no array.
 inline constexpr int container_index = std::numeric_limits<int>::max();
 
 // "bodies 3 and 5" or "body 3 and the container".

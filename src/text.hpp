@@ -1,4 +1,4 @@
-// Text in and out: numbers that read back to the same bits, strict parsing, names that were meant.
+// Text input and output: numbers that read back to the same bits, strict parsing, suggestions for misspelt names.
 //
 // Nothing here depends on the locale. Parsing never guesses: a token is a number or it is not.
 #pragma once
@@ -16,7 +16,7 @@ namespace stokes {
 // Shortest decimal form that reads back to the same double; nan, inf and -inf are spelled so.
 std::string format_number(double value);
 std::string format_integer(long long value);
-// To four digits, for messages.
+// With four digits, for messages.
 std::string brief(double value);
 template <std::integral Integer>
 std::string format_number(Integer value) {
@@ -29,9 +29,9 @@ std::optional<double> parse_number(std::string_view token);
 // The same for a whole number: 32, but neither 32.0 nor 3e1.
 std::optional<long long> parse_integer(std::string_view token);
 
-// Without white space (line ends included) at both ends.
+// Removes white space, line ends included, from both ends.
 std::string_view trim(std::string_view text);
-// Pieces between separators, not trimmed; always at least one.
+// The pieces between separators, not trimmed. There is always at least one.
 std::vector<std::string_view> split(std::string_view text, char separator);
 
 // 'text' for a message: cut after 60 bytes, control characters shown as '?', so that it stays one line.
@@ -44,11 +44,11 @@ std::string padded(std::string_view word, std::size_t width);
 
 // Number of insertions, deletions, substitutions and swaps of neighbours between two words.
 int edit_distance(std::string_view from, std::string_view to);
-// The name that `word` was most likely meant to be: smallest edit distance without regard to case, a
-// name that contains the word (or the reverse) counting as near; the first of equals.
+// The name that `word` most likely stands for: the one of smallest edit distance, ignoring case. A name that contains the
+// word, or is contained in it, counts as near. Of equally near names the first is taken.
 std::string nearest_name(std::string_view word, const std::vector<std::string>& names);
-// "did you mean 'name'? " with the nearest name, if it is at most two letters away and shares half of them, or if one
-// contains the other; if not, nothing.
+// "did you mean 'name'? " with the nearest name if it is at most two letters away and half of its letters agree, or if one
+// contains the other. Otherwise empty.
 std::string suggestion(std::string_view word, const std::vector<std::string>& names);
 
 // The content of a file without its UTF-8 byte order mark, line ends of '\r' alone as '\n'. Throws InputError for a file

@@ -1,4 +1,4 @@
-// What a result says of the program that made it.
+// Version, compiler and instruction set of this build, for the files that it writes.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline Comments provenance() {
   return {{"version", version}, {"compiler", compiler}};
 }
 
-// What the last digits of a result depend on: version, compiler and the instructions that it may use.
+// Version, compiler and instruction set: the last digits of a result depend on them.
 inline std::string build_description() {
 #if defined(__AVX512F__)
   const std::string instructions = "AVX-512";

@@ -18,10 +18,10 @@ std::string vtk_file(const StepRecord& record, int outline_points = 96);
 // the final configuration.
 class VtkWriter {
  public:
-  // Makes the folder. InputError when it cannot be written.
+  // Creates the folder. InputError if it cannot be written.
   VtkWriter(const std::filesystem::path& folder, int output_every);
 
-  // Each file is replaced as a whole. NumericalError on a write error.
+  // Replaces each file as a whole. NumericalError on a write error.
   void write(const StepRecord& record) const;
 
  private:
