@@ -224,7 +224,7 @@ const std::vector<CaseKey>& case_keys() {
                "of the bodies' velocities, in units of the rate and size of what drives them: chooses the nodes of bodies and "
                "walls and the tolerance of the solver at every step; 1e-4 without points_per_body"),
       optional("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8; 0: chosen by accuracy"),
-      optional("reverse_at", &Case::reverse_at, "none", "time from which every driving is reversed"),
+      optional("reverse_at", &Case::reverse_at, "none", "time from which the flow and the walls' velocities are reversed; forces on bodies are not"),
       with_contact(optional("min_separation", &Case::min_separation,
                             "in units of h = longest perimeter of a body / points_per_body")),
       with_contact(optional("min_separation_length", &Case::min_separation_length, "none",

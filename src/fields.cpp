@@ -34,32 +34,25 @@ bool in_fluid(const Suspension& bodies, Complex x) {
   });
 }
 
-}  // namespace
+BackgroundFlow driven(const StepperOptions& options, double driving) {
+  return {options.flow.kind, driving * options.flow.rate, driving};
+}
 
-GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
-                      const std::vector<Wrench>& contact, const Square& square, int points) {
-  GridFlow grid;
+// Of each body on the fluid: of a free one the given and the contact force, of a fixed one its reaction.
+std::vector<Wrench> wrenches_on_fluid(const Suspension& bodies, const std::vector<Wrench>& contact,
+                                      const std::vector<Wrench>& reaction) {
+  std::vector<Wrench> wrenches;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Wrench more = contact.empty() ? Wrench{} : contact[i];
-    grid.wrenches.push_back({bodies[i].force + more.force, bodies[i].torque + more.torque});
+    wrenches.push_back({bodies[i].force + more.force, bodies[i].torque + more.torque});
+    if (bodies[i].fixed && !reaction.empty()) wrenches[i] = reaction[i];
   }
-  ShapeCache shapes(options.near_singular);
-  const BackgroundFlow flow{options.flow.kind, driving * options.flow.rate, driving};
-  ResolvedSystem resolved;
-  if (options.accuracy > 0.0) {
-    ShapeResolution alone;
-    std::vector<Resolution> resolution;
-    resolved = solve_to_accuracy({bodies, flow, grid.wrenches, {}}, options.accuracy, options.stokes, shapes, alone, resolution);
-  } else {
-    const std::vector<Discretisation> nodes = options.refine == Refine::near
-                                                  ? refined_nodes(bodies, options.points_per_body, near_tolerance)
-                                                  : equal_nodes(bodies, options.points_per_body);
-    resolved.system = std::make_unique<StokesSystem>(bodies, nodes, shapes, options.stokes);
-    resolved.solution = resolved.system->solve(flow, grid.wrenches);
-  }
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].fixed) grid.wrenches[i] = resolved.solution.reaction[i];
+  return wrenches;
+}
 
+GridFlow on_grid(const Suspension& bodies, const StokesSystem& system, const ComplexVector& density,
+                 const BackgroundFlow& flow, std::vector<Wrench> wrenches, const Square& square, int points) {
+  GridFlow grid;
   std::vector<Complex> fluid;
   for (int j = 0; j < points; ++j)
     for (int i = 0; i < points; ++i) {
@@ -67,17 +60,44 @@ GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, d
       grid.points.push_back({x, !in_fluid(bodies, x), {}});
       if (!grid.points.back().inside) fluid.push_back(x);
     }
-  const std::vector<PointFlow> flows = resolved.system->flow(fluid, resolved.solution.density, flow, grid.wrenches);
+  const std::vector<PointFlow> flows = system.flow(fluid, density, flow, wrenches);
   std::size_t next = 0;
   for (GridPoint& point : grid.points)
     if (!point.inside) point.flow = flows[next++];
+  grid.wrenches = std::move(wrenches);
   return grid;
 }
 
-void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
-                  double driving, const std::vector<Wrench>& contact, int points) {
+}  // namespace
+
+GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
+                      const std::vector<Wrench>& contact, const Square& square, int points) {
+  const std::vector<Wrench> given = wrenches_on_fluid(bodies, contact, {});
+  ShapeCache shapes(options.near_singular);
+  const BackgroundFlow flow = driven(options, driving);
+  ResolvedSystem resolved;
+  if (options.accuracy > 0.0) {
+    ShapeResolution alone;
+    std::vector<Resolution> resolution;
+    resolved = solve_to_accuracy({bodies, flow, given, {}}, options.accuracy, options.stokes, shapes, alone, resolution);
+  } else {
+    resolved.system = std::make_unique<StokesSystem>(bodies, given_nodes(bodies, options), shapes, options.stokes);
+    resolved.solution = resolved.system->solve(flow, given);
+  }
+  return on_grid(bodies, *resolved.system, resolved.solution.density, flow,
+                 wrenches_on_fluid(bodies, contact, resolved.solution.reaction), square, points);
+}
+
+GridFlow flow_on_grid(const StepRecord& record, const StepperOptions& options, const Square& square, int points) {
+  if (!record.outcome) return flow_on_grid(record.bodies, options, record.driving, {}, square, points);
+  const StepOutcome& step = *record.outcome;
+  return on_grid(record.bodies, *step.system, step.density, driven(options, record.driving),
+                 wrenches_on_fluid(record.bodies, step.contact_wrench, step.reaction), square, points);
+}
+
+void write_fields(const std::filesystem::path& path, const StepRecord& record, const StepperOptions& options, int points) {
   std::string text = "x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside\n";
-  const GridFlow grid = flow_on_grid(bodies, options, driving, contact, square_around(bodies), points);
+  const GridFlow grid = flow_on_grid(record, options, square_around(record.bodies), points);
   for (const GridPoint& point : grid.points) {
     std::vector<double> row{point.x.real(), point.x.imag()};
     if (point.inside) {

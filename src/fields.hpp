@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "stepper.hpp"
+#include "simulation.hpp"
 
 namespace stokes {
 
@@ -30,12 +30,15 @@ struct GridFlow {
 GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, double driving,
                       const std::vector<Wrench>& contact, const Square& square, int points);
 
-// Writes the flow on the square around the container or on the smallest square around the bodies with a body's length
-// to spare:
+// The flow of a step, contact forces included: that of the densities that moved the bodies. The flow of the final
+// configuration is solved for as above, without contact forces.
+GridFlow flow_on_grid(const StepRecord& record, const StepperOptions& options, const Square& square, int points);
+
+// Writes the flow of a record on the square around the container or on the smallest square around the bodies with a
+// body's length to spare:
 //   x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside
 // inside is 1 or 0, and all but x and y is nan where it is 1. A function of its arguments alone. Errors as above, and
 // NumericalError on a write error.
-void write_fields(const std::filesystem::path& path, const Suspension& bodies, const StepperOptions& options,
-                  double driving, const std::vector<Wrench>& contact, int points);
+void write_fields(const std::filesystem::path& path, const StepRecord& record, const StepperOptions& options, int points);
 
 }  // namespace stokes

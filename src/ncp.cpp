@@ -121,6 +121,11 @@ class Iteration {
     for (Eigen::Index l = 0; l < m; ++l) b[l] = candidates_[l].constraint.value;
     if (mobility_.learns) {
       extend_known();
+      // It has learnt from answers whose errors it shows: columns anew.
+      if (!(known_.rates.diagonal().minCoeff() > 0.0)) {
+        known_ = {};
+        extend_known();
+      }
       for (Eigen::Index k = 0; k < m; ++k) b -= dt_ * candidates_[k].multiplier * known_.rates.col(k);
     } else {
       for (Eigen::Index l = 0; l < m; ++l)

@@ -59,9 +59,7 @@ class FieldTimes {
     const double slack = 1e-9 * case_.time_step;
     for (; next_ < case_.fields_at.size() && record.time >= case_.fields_at[next_] - slack; ++next_) {
       if (std::filesystem::exists(path(case_.fields_at[next_]))) continue;
-      const bool back = case_.reverse_at && record.time >= *case_.reverse_at - slack;
-      write_fields(path(case_.fields_at[next_]), record.bodies, options_, back ? -1.0 : 1.0,
-                   record.outcome ? record.outcome->contact_wrench : std::vector<Wrench>{}, case_.field_points);
+      write_fields(path(case_.fields_at[next_]), record, options_, case_.field_points);
     }
   }
 

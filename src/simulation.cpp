@@ -27,18 +27,17 @@ class Clock {
   }
 
   const ClockState& now() const { return now_; }
-  double driving() const { return driving_; }
+
+  // Of the step from here. Exact counting forgives the rounding of k dt; accumulated does not.
+  double driving() const {
+    const double slack = options_.time_counting == TimeCounting::exact ? 1e-9 * options_.time_step : 0.0;
+    return options_.reverse_at && now_.time >= *options_.reverse_at - slack ? -1.0 : 1.0;
+  }
 
   bool done() const {
     const bool by_time = options_.adaptive || options_.time_counting == TimeCounting::accumulated;
     if (by_time) return !(now_.time < options_.end_time);
     return now_.step == steps_;
-  }
-
-  // Called at the start of each step. Exact counting forgives the rounding of k dt; accumulated does not.
-  void begin_step() {
-    const double slack = options_.time_counting == TimeCounting::exact ? 1e-9 * options_.time_step : 0.0;
-    if (options_.reverse_at && now_.time >= *options_.reverse_at - slack) driving_ = -1.0;
   }
 
   // The step to take from here: fixed, or the adaptive one cut at the end and at the reversal.
@@ -85,7 +84,6 @@ class Clock {
  private:
   const SimulationOptions& options_;
   ClockState now_;
-  double driving_ = 1.0;
   long steps_;
 };
 
@@ -130,7 +128,7 @@ class Run {
       const Suspension start = stepper_.bodies();
       const StepOutcome outcome = step();
       if (!outcome.accepted) return finish(outcome.failure);
-      observe_({clock_.now().step, clock_.now().time, start, closest_.gap, &outcome});
+      observe_({clock_.now().step, clock_.now().time, start, closest_.gap, &outcome, clock_.driving()});
       clock_.accept(outcome.dt, outcome.ncp_iterations);
       remember();
       failure = obstacle(stepper_.bodies(), options_.stepper.contact, closest_);
@@ -148,7 +146,6 @@ class Run {
  private:
   // The step from here; not accepted, its failure says why the run ends.
   StepOutcome step() {
-    clock_.begin_step();
     const double driving = clock_.driving();
     const NcpOptions ncp = ncp_options(options_);
     StepOutcome outcome;
@@ -184,7 +181,7 @@ class Run {
   RunSummary finish(const std::string& failure) {
     const ClockState& now = clock_.now();
     if (!failure.empty()) tell(RunStage::failed);
-    observe_({now.step, now.time, stepper_.bodies(), closest_.gap, nullptr});
+    observe_({now.step, now.time, stepper_.bodies(), closest_.gap, nullptr, clock_.driving()});
     if (!failure.empty()) throw NumericalError(concat("step ", now.step, ", time ", now.time, ": ", failure));
     return {now.step, rejected_, stepper_.factorisations(), stepper_.shape_count()};
   }

@@ -55,6 +55,7 @@ struct StepRecord {
   const Suspension& bodies;
   double min_gap;              // smallest distance between two bodies, negative if they overlap
   const StepOutcome* outcome;  // null: the final configuration
+  double driving = 1.0;        // what the step from here multiplies the flow and the walls' velocities by
 };
 using Observer = std::function<void(const StepRecord&)>;
 

@@ -48,6 +48,14 @@ bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {
 
 }  // namespace
 
+std::vector<Discretisation> given_nodes(const Suspension& bodies, const StepperOptions& options) {
+  std::vector<Discretisation> nodes = options.refine == Refine::near
+                                          ? refined_nodes(bodies, options.points_per_body, near_tolerance)
+                                          : equal_nodes(bodies, options.points_per_body);
+  if (bodies.container) nodes.push_back({bodies.container->points, {}});
+  return nodes;
+}
+
 Stepper::Stepper(Suspension bodies, const StepperOptions& options)
     : bodies_(std::move(bodies)), options_(options), shapes_(options.near_singular) {}
 
@@ -119,9 +127,7 @@ StokesSolution Stepper::solve_contact_free(Configuration& now, const std::vector
     now.stokes_solves = resolved.solves;
     return std::move(resolved.solution);
   }
-  now.nodes = options_.refine == Refine::near ? refined_nodes(bodies_, options_.points_per_body, near_tolerance)
-                                              : equal_nodes(bodies_, options_.points_per_body);
-  if (bodies_.container) now.nodes.push_back({bodies_.container->points, {}});
+  now.nodes = given_nodes(bodies_, options_);
   now.shortfalls = shortfalls(bodies_, now.nodes, alone_);
   now.unresolved = static_cast<int>(now.shortfalls.size());
   now.system = std::make_unique<StokesSystem>(bodies_, now.nodes, shapes_, options_.stokes);
@@ -172,7 +178,7 @@ Response Stepper::respond_alone(const Configuration& now, const std::vector<Wren
   return response;
 }
 
-ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix) {
+ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix, Learnt learnt) {
   const ResponseFunction full = [this, &now](const auto& w, const auto& guess) {
     return respond(now, w, guess, now.data_norm);
   };
@@ -183,18 +189,14 @@ ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix) 
   if (matrix == LcpMatrix::full) return {column, {}, {}};
   if (matrix == LcpMatrix::self) return {alone, full, {}};
   if (options_.contact == ContactModel::stiv) return {nearby, full};  // whose forces are others at every iterate
+  if (learnt == Learnt::not_used) return {nearby, full, true};
   ContactMobility mobility{nearby, full, true, memory_.known};
   for (const StepperMemory::Density& answer : memory_.answers) mobility.answers.push_back(moved(answer, now.nodes));
   return mobility;
 }
 
-void Stepper::forget_contacts() {
-  memory_.known = {};
-  memory_.answers.clear();
-}
-
-NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix) {
-  const ContactMobility mobility = contact_mobility(now, matrix);
+NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix, Learnt learnt) {
+  const ContactMobility mobility = contact_mobility(now, matrix, learnt);
   const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
     NcpOptions options = ncp;
     if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;
@@ -224,9 +226,8 @@ NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& n
   Configuration& now = configuration(driving);
   NcpResult result = resolve(now, dt, at_first, LcpMatrix::near);
   if (!result.solved && !memory_.known.contacts.empty()) {
-    forget_contacts();
     now.ncp_iterations += result.iterations;
-    result = resolve(now, dt, at_first, LcpMatrix::near);
+    result = resolve(now, dt, at_first, LcpMatrix::near, Learnt::not_used);
   }
   if (result.solved) return result;
   now.ncp_iterations += result.iterations;
@@ -274,7 +275,8 @@ void Stepper::remember(Configuration& now, ComplexVector total, KnownContacts kn
     memory_.known = std::move(known);
     memory_.known.multipliers = memory_.known.multipliers.rightCols(static_cast<Eigen::Index>(memory_.answers.size())).eval();
   } else {
-    forget_contacts();
+    memory_.known = {};
+    memory_.answers.clear();
   }
   memory_.total = {memory_.path, now.nodes, std::move(total)};
   memory_.resolution = now.resolution;
@@ -309,7 +311,9 @@ void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutco
   }
   outcome.velocity = std::move(result.motion.velocity);
   for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
+  outcome.density = result.motion.density;
   remember(now, std::move(result.motion.density), std::move(result.known));
+  outcome.system = std::move(now.system);
   turn_walls(now.driving * dt);
   now_.reset();
 }

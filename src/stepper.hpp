@@ -75,7 +75,12 @@ struct StepOutcome {
   int most_nodes = 0;            // of a boundary
   int unresolved = 0;            // boundaries; of fixed nodes, the shortfalls
   std::vector<Shortfall> shortfalls;  // of fixed nodes
+  std::shared_ptr<const StokesSystem> system;  // of an accepted step
+  ComplexVector density;                       // of all that drives the fluid in it
 };
+
+// The nodes of the bodies and the container without an accuracy.
+std::vector<Discretisation> given_nodes(const Suspension& bodies, const StepperOptions& options);
 
 // What a step leaves to later ones beside the bodies: densities, in the body frames, from which the next solve
 // starts or, locally coupled, which it takes for the present ones.
@@ -142,9 +147,9 @@ class Stepper {
   Response respond_to_contact(Configuration& now, const std::vector<Wrench>& wrenches);
   Response respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const;
   Response respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const;
-  ContactMobility contact_mobility(Configuration& now, LcpMatrix matrix);
-  void forget_contacts();
-  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix);
+  enum class Learnt { used, not_used };  // what other configurations have taught the matrix of LcpMatrix::near
+  ContactMobility contact_mobility(Configuration& now, LcpMatrix matrix, Learnt learnt);
+  NcpResult resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix, Learnt learnt = Learnt::used);
   NcpResult resolve_nearby(double dt, double driving, const NcpOptions& ncp);
   void remember(Configuration& now, ComplexVector total, KnownContacts known);
   void turn_walls(double way);

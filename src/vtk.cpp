@@ -73,12 +73,17 @@ CellData cell_data(const StepRecord& record) {
   const Wrench unknown_wrench{{nan, nan}, nan};
   const StepOutcome* const outcome = record.outcome;
   CellData cells;
+  const auto turning = [&record](const SurfaceMotion& surface) {
+    return RigidVelocity{{}, record.driving * surface.angular_velocity};
+  };
   if (const auto& container = record.bodies.container)
-    cells.add(-1, true, outcome ? RigidVelocity{{}, container->surface.angular_velocity} : unknown_velocity,
+    cells.add(-1, true, outcome ? turning(container->surface) : unknown_velocity,
               outcome ? outcome->container_contact : unknown_wrench);
-  for (std::size_t i = 0; i < record.bodies.size(); ++i)
-    cells.add(static_cast<int>(i), record.bodies[i].fixed, outcome ? outcome->velocity[i] : unknown_velocity,
-              outcome ? outcome->contact_wrench[i] : unknown_wrench);
+  for (std::size_t i = 0; i < record.bodies.size(); ++i) {
+    const Body& body = record.bodies[i];
+    const RigidVelocity known = !outcome ? unknown_velocity : body.fixed ? turning(body.surface) : outcome->velocity[i];
+    cells.add(static_cast<int>(i), body.fixed, known, outcome ? outcome->contact_wrench[i] : unknown_wrench);
+  }
   return cells;
 }
 

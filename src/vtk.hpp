@@ -10,8 +10,8 @@ namespace stokes {
 
 // A state as a legacy VTK file (version 3.0, binary, big-endian): the container, if there is one, as a closed line, each
 // body as a polygon of `outline_points` corners on its boundary. Every cell has body (its index, -1 for the
-// container), fixed (0 or 1), velocity, omega, contact_force and contact_torque, which are nan in a final
-// configuration. TIME holds the time.
+// container), fixed (0 or 1), velocity, omega (of a fixed body and of the container that of the surface), contact_force and
+// contact_torque, the last four nan in a final configuration. TIME holds the time.
 std::string vtk_file(const StepRecord& record, int outline_points = 96);
 
 // Writes FOLDER/step_<number of the step, at least six digits>.vtk at the start of every `output_every`-th step and for

@@ -281,6 +281,13 @@ TEST_CASE("answers to contact forces start from the nearest combination of known
 
   mobility.known.rates = taught.known.rates;
   CHECK(resolve().iterations == 1);
+
+  // A matrix that has lost its positive diagonal makes room for columns.
+  mobility.known.rates = Matrix::Constant(1, 1, -2.0);
+  const NcpResult anew = resolve();
+  CHECK(anew.failure == "");
+  CHECK(columns == 1);
+  CHECK(std::abs(anew.contacts.at(0).multiplier - 0.5) < 1e-4);
 }
 
 TEST_CASE("what steps leave to the next one changes it by less than the contacts' tolerance") {
@@ -307,4 +314,34 @@ TEST_CASE("what steps leave to the next one changes it by less than the contacts
   CHECK(a.ncp_iterations <= b.ncp_iterations);
   for (std::size_t i = 0; i < poses.size(); ++i)
     CHECK(std::abs(stepper.bodies()[i].pose.centre - forgetful.bodies()[i].pose.centre) < 1e-4 * options.separation);
+}
+
+TEST_CASE("a rejected attempt changes nothing of what the next one starts from") {
+  StepperOptions options = accurate_steps(32, 0.01);
+  options.refine = Refine::near;
+  options.stokes.gmres_tolerance = 1e-9;
+  options.lcp_matrix = LcpMatrix::near;
+  Stepper disturbed(pressed_row(3, 0.01, 10.0), options), untouched(pressed_row(3, 0.01, 10.0), options);
+  for (int k = 0; k < 2; ++k) {
+    REQUIRE(disturbed.attempt(0.01, 1.0, {}).accepted);
+    REQUIRE(untouched.attempt(0.01, 1.0, {}).accepted);
+  }
+  REQUIRE(disturbed.memory().known.contacts.size() > 0);
+  CHECK_FALSE(disturbed.attempt(0.01, 1.0, {0, false}).accepted);
+  const StepperMemory &a = disturbed.memory(), &b = untouched.memory();
+  CHECK(a.path == b.path);
+  CHECK(a.total.value == b.total.value);
+  CHECK(a.background.size() == b.background.size());
+  CHECK(a.contacts.size() == b.contacts.size());
+  CHECK(a.known.contacts == b.known.contacts);
+  REQUIRE(a.known.rates.size() == b.known.rates.size());
+  CHECK(a.known.rates == b.known.rates);
+  REQUIRE(a.answers.size() == b.answers.size());
+  for (std::size_t k = 0; k < a.answers.size(); ++k) CHECK(a.answers[k].value == b.answers[k].value);
+  REQUIRE(disturbed.attempt(0.005, 1.0, {}).accepted);
+  REQUIRE(untouched.attempt(0.005, 1.0, {}).accepted);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(disturbed.bodies()[i].pose.centre == untouched.bodies()[i].pose.centre);
+    CHECK(disturbed.bodies()[i].pose.angle == untouched.bodies()[i].pose.angle);
+  }
 }

@@ -176,3 +176,21 @@ TEST_CASE("a folder of pictures that cannot be made is bad input, before anythin
   CHECK(run.errors.find("is not a folder") != std::string::npos);
   CHECK(here.everything() == before);
 }
+
+TEST_CASE("walls turn in the pictures as in the steps, back after reverse_at") {
+  const Workspace here("bodies = bodies.csv\ngeometry = annulus\ninner_radius = 1\nouter_radius = 3\nwall_points = 64\n"
+                       "outer_angular_velocity = .5\ninner_angular_velocity = -.25\nreverse_at = .1\npoints_per_body = 16\n"
+                       "time_step = .1\nend_time = .2\noutput = out\nvtk = yes\n",
+                       "a,b,x,y,theta\n.3,.2,2,0,0\n");
+  REQUIRE(here.run({"case.txt"}).status == 0);
+  const Results results = here.results();
+  for (const int step : {0, 1}) {
+    VtkReader file(here.path() / concat("out/vtk/step_00000", step, ".vtk"));
+    while (file.line() != "omega 1 3 double") {}
+    const std::vector<double> omega = file.doubles(3);
+    const double driving = step == 0 ? 1.0 : -1.0;
+    CHECK(omega[0] == 0.5 * driving);
+    CHECK(omega[1] == results.body_column(0, "omega")[step]);
+    CHECK(omega[2] == -0.25 * driving);
+  }
+}
