@@ -8,7 +8,8 @@ namespace {
 
 using namespace stokes;
 
-constexpr int levels = 4;
+// The window of the smoothing: 2^4 steps of pi/1000, and as long in time with other steps.
+int levels_for(double step) { return std::max(1, 4 - static_cast<int>(std::lround(std::log2(step / (pi / 1000.0))))); }
 
 struct Spikes {
   double in_contact = 0.0, without = 0.0;
@@ -20,7 +21,8 @@ Spikes write_series(const std::string& name, const Results& runs, const Results&
   std::vector<double> time = series.numbers("revolutions"), raw = series.numbers("effective_viscosity");
   const std::vector<double> contacts = series.numbers("contacts");
   time.pop_back(), raw.pop_back();  // the end, which no step starts from
-  const std::vector<double> smooth = smoothed(raw, levels);
+  const std::vector<double> when = series.numbers("time");
+  const std::vector<double> smooth = smoothed(raw, levels_for(when[1] - when[0]));
   std::vector<std::vector<double>> rows;
   Spikes spikes;
   for (std::size_t k = 0; k < raw.size(); ++k) {

@@ -63,5 +63,7 @@ plot $ends \
          with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \
      reference . "/fig2_shear_separation.csv" \
               using (case_of("displacement", "delta", "h")):(read_off("displacement")) \
-              with points pointtype 6 pointsize 0.5 linecolor rgb published title "published"
+              with points pointtype 6 pointsize 0.5 linecolor rgb published title "published", \
+     "" using (case_of("displacement", "published_", "h")):(read_off("displacement")) \
+              with points pointtype 6 pointsize 0.5 linecolor rgb published notitle
 unset multiplot
