@@ -58,7 +58,7 @@ void continue_from(const Suspension& start, const TaylorGreen& parameters, const
   int steps = 0;
   while (steps < wanted && failure.empty()) try {
       const Suspension before = stepper.bodies();
-      const StepOutcome outcome = stepper.attempt(parameters.time_step, 1.0, ncp);
+      const StepOutcome outcome = stepper.step(parameters.time_step, 1.0, ncp);
       largest_ncp = std::max<double>(largest_ncp, outcome.ncp_iterations);
       total_ncp += outcome.ncp_iterations;
       failure = outcome.failure;

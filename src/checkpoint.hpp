@@ -22,7 +22,7 @@ namespace stokes {
 std::uint64_t checksum(std::string_view text);
 
 struct Checkpoint {
-  RunState run;
+  SavedRun run;
   RunStage stage = RunStage::under_way;
   Recorder::Position recorder;
   std::string build{};  // of the program that wrote it (build_description); of this one if empty

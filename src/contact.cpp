@@ -16,7 +16,8 @@ constexpr double smallest_separation = 1e-7, smallest_of_extent = 1e-10;
 
 }  // namespace
 
-GapCollector::GapCollector(const Suspension& start, double separation) : start_(start), separation_(separation) {
+GapCollector::GapCollector(const Suspension& start, const Suspension& at, double separation)
+    : start_(start), at_(at), separation_(separation) {
   if (separation_ == 0.0) {
     double smallest = start.front().shape.inradius(), extent = 0.0;
     for (const Body& body : start) {
@@ -31,7 +32,7 @@ GapCollector::GapCollector(const Suspension& start, double separation) : start_(
 
 // Where the body ends inside, every plane that touches the wall is behind it: a hit on the way adds nothing.
 ContactConstraint GapCollector::evaluate_wall(int a, const Pose& trial) const {
-  const Body& body = start_[a];
+  const Body& body = at_[a];
   const Container& container = *start_.container;
   const Gap before = gap(body, container), after = gap(body.shape, trial, container);
   const bool alike = dot(before.normal, after.normal) > 0.5;
@@ -43,9 +44,11 @@ ContactConstraint GapCollector::evaluate(int a, int b, const std::vector<Pose>& 
   if (b == container_index) return evaluate_wall(a, trial[a]);
   const Body &body_a = start_[a], &body_b = start_[b];
   const Gap before = gap(body_a, body_b);
+  const bool at_start = at_[a].pose == body_a.pose && at_[b].pose == body_b.pose;
+  const Gap at = at_start ? before : gap(at_[a], at_[b]);
   const Gap after = gap(body_a.shape, trial[a], body_b.shape, trial[b]);
   ContactConstraint contact{a, b, 0, after.value - separation_, tolerance_, gradient(after, trial[a], trial[b]),
-                            gradient(before, body_a.pose, body_b.pose)};
+                            gradient(at, at_[a].pose, at_[b].pose)};
   if (after.value < separation_ && dot(before.normal, after.normal) > 0.0) return contact;
   // Apart at the end, or overlapping so far that the normal has turned: did they pass through each other?
   // Half the separation: a dip below it within a step is a pass, one above it the next step restores.

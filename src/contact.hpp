@@ -39,8 +39,8 @@ struct ContactConstraint {
 // the minimum separation, and pairs that pass through each other on the way there.
 //   value = gap - separation, or, for a pair that passed through, the separation of the material points
 //   that met first along their normal;
-//   force = gradient of the gap at the START of the step, which makes the two forces of a contact
-//   opposite and collinear in the configuration in which the fluid is solved.
+//   force = gradient of the gap in the configuration in which the fluid is solved: the start of the step or a stage of
+//   it. There the two forces of a contact are opposite and collinear.
 // Two fixed bodies are not a pair. For a mobile body and the container only the gap at the trial pose counts, since no
 // body passes through the wall and comes back. If the step turns the normal by more than 60 degrees, the body started
 // too far from the wall for its first normal to be meaningful. The force is then along the normal at the trial pose.
@@ -50,7 +50,9 @@ class GapCollector {
  public:
   // separation >= 0. With 0 the bodies are kept 1e-7 of the smallest semi-axis apart,
   // or 1e-10 of the largest distance of a centre or of the container's wall from the origin.
-  GapCollector(const Suspension& start, double separation);
+  // `at`: the configuration in which the fluid is solved, that at the start of the step unless given.
+  GapCollector(const Suspension& start, const Suspension& at, double separation);
+  GapCollector(const Suspension& start, double separation) : GapCollector(start, start, separation) {}
 
   double separation() const { return separation_; }
 
@@ -63,7 +65,7 @@ class GapCollector {
   ContactConstraint evaluate(int a, int b, const std::vector<Pose>& trial) const;
   ContactConstraint evaluate_wall(int a, const Pose& trial) const;
 
-  const Suspension& start_;
+  const Suspension &start_, &at_;
   double separation_, tolerance_;
 };
 

@@ -91,7 +91,9 @@ GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, d
 GridFlow flow_on_grid(const StepRecord& record, const StepperOptions& options, const Square& square, int points) {
   if (!record.outcome) return flow_on_grid(record.bodies, options, record.driving, {}, square, points);
   const StepOutcome& step = *record.outcome;
-  return on_grid(record.bodies, *step.system, step.density, driven(options, record.driving),
+  if (!step.at_start)
+    return flow_on_grid(record.bodies, options, record.driving, step.contact_wrench, square, points);
+  return on_grid(record.bodies, step.at_start->system(), step.density, driven(options, record.driving),
                  wrenches_on_fluid(record.bodies, step.contact_wrench, step.reaction), square, points);
 }
 

@@ -18,17 +18,12 @@
 #include <string>
 #include <vector>
 
+#include "configuration.hpp"
 #include "contact.hpp"
 #include "known_contacts.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
-
-// Contact-free velocities or those of one contact, with the density that belongs to them.
-struct Response {
-  std::vector<RigidVelocity> velocity;  // of a fixed body 0
-  ComplexVector density;
-};
 
 struct ActiveContact {
   ContactConstraint constraint;  // value and gradient at the accepted poses

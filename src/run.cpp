@@ -93,7 +93,7 @@ class Checkpoints {
       write();
     }
     if (stage == RunStage::interrupted)
-      interruption_ = concat("interrupted at step ", state.clock.step, ", time ", state.clock.time, "; ", way_on());
+      interruption_ = concat("interrupted at step ", state.step(), ", time ", state.time(), "; ", way_on());
   }
 
   const std::string& interruption() const { return interruption_; }
@@ -112,10 +112,10 @@ class Checkpoints {
     why_not_written_.clear();
     try {
       recorder_.sync();  // before the checkpoint that belongs to these rows
-      file_.write({*latest_, latest_stage_, position_});
+      file_.write({latest_->save(), latest_stage_, position_});
     } catch (const std::exception& error) {
       why_not_written_ = error.what();
-      progress_.message(concat("warning: there is no checkpoint of step ", latest_->clock.step, ": ", error.what()));
+      progress_.message(concat("warning: there is no checkpoint of step ", latest_->step(), ": ", error.what()));
     }
     last_ = Clock::now();
   }
@@ -237,7 +237,7 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   const CheckpointFile file(c, bodies);
   const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
   const auto [start, warnings] = beginning(c, bodies, file, columns);
-  Progress progress(c.end_time, start ? start->run.clock.time : 0.0, label);
+  Progress progress(c.end_time, start ? start->run.time : 0.0, label);
   for (const std::string& warning : warnings) progress.message(concat("warning: ", warning));
   std::optional<VtkWriter> vtk;
   if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every);
@@ -245,7 +245,7 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
                             : Recorder(c.output, c.output_every, columns);
   if (start) {
     options.start = start->run;
-    progress.message(concat("going on from step ", start->run.clock.step, ", time ", start->run.clock.time));
+    progress.message(concat("going on from step ", start->run.step, ", time ", start->run.time));
   } else {
     warn_of_values(c, bodies, progress);
     warn_of_small_gaps(c, bodies, options.stepper.separation, progress);

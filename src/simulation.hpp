@@ -1,33 +1,29 @@
-// Runs a suspension from time 0 to its end: time counting, reversal of the flow, adaptive steps.
+// Runs a suspension from time 0 to its end: the loop of a StepController and a Stepper.
 #pragma once
 
 #include <functional>
 #include <optional>
+#include <string>
 
-#include "stepper.hpp"
+#include "step_controller.hpp"
 
 namespace stokes {
 
-enum class TimeCounting {
-  exact,        // round(end_time / time_step) steps that start at k time_step, the last one ends at end_time
-  accumulated,  // t += dt while t < end_time, in floating point: may overshoot by a step
-};
-
-// Where a run stands in time between two steps.
-struct ClockState {
+// Everything that the rest of a run depends on, between two steps, as text (state_text.hpp): a run that starts from it
+// makes the same steps, bit for bit, as the one that it was taken from.
+struct SavedRun {
   long step = 0;
   double time = 0.0;
-  double dt = 0.0;                            // of the next step, when adaptive
-  int easy_steps = 0, since_rejection = 6;  // accepted ones, which decide when dt may grow
+  std::string text{};
 };
 
-// Everything that the rest of a run depends on, between two steps: a run that starts from it makes the same
-// steps, bit for bit, as the one that it was taken from.
-struct RunState {
-  ClockState clock;
-  std::vector<Pose> poses;
-  StepperMemory memory;
-  long rejected = 0;
+// Where a run stands between two steps. It can be saved until the next observation.
+class RunState {
+ public:
+  virtual ~RunState() = default;
+  virtual long step() const = 0;
+  virtual double time() const = 0;
+  virtual SavedRun save() const = 0;
 };
 
 enum class RunStage {
@@ -37,18 +33,13 @@ enum class RunStage {
 };
 using StateObserver = std::function<void(const RunState&, RunStage)>;
 
-struct SimulationOptions {
+struct SimulationOptions : TimeOptions {
   StepperOptions stepper;
-  double time_step = 0.0;            // first and largest step when adaptive
-  double end_time = 0.0;
-  std::optional<double> reverse_at;  // driving changes sign at the first step that starts at or after it
-  TimeCounting time_counting = TimeCounting::exact;
-  bool adaptive = false;             // reject, halve and grow steps; steps are cut at reverse_at and end_time
-  std::optional<RunState> start;     // to go on from, instead of time 0
-  StateObserver observe_state;       // after the other observer; it may end the run with an exception
+  std::optional<SavedRun> start;  // to go on from, instead of time 0
+  StateObserver observe_state;    // after the other observer; it may end the run with an exception
 };
 
-// State of a run at the start of a step, with what moved it from there; without for the last state.
+// State of a run at the start of a step, with what moves it from there; without for the last state.
 struct StepRecord {
   long step;
   double time;

@@ -5,334 +5,235 @@
 #include <limits>
 #include <utility>
 
-#include "cluster.hpp"
-#include "completion.hpp"
 #include "neighbours.hpp"
 
 namespace stokes {
 
 namespace {
 
-// Newton's method on interference volumes takes 3 to 6 iterations where it converges; it cycles where sliding
-// carries vertices across corners.
-constexpr int stiv_increments_after = 8;
-
-// Densities that the next one is extrapolated from: quadratic, which on Taylor-Green flow saves twice as many
-// iterations as starting from the previous one.
-constexpr std::size_t extrapolation_points = 3;
-// Of LcpMatrix::near: the mobility across a small gap is 1e-3 and less of what each of the two flows in it is alone.
-constexpr double column_tolerance = 1e-6;
-// An iteration costs one solve, columns of the full mobility one for each contact: of about a hundred in dense suspensions.
-constexpr int nearby_iterations = 24;
-
-// A density on other nodes.
-ComplexVector moved(const StepperMemory::Density& density, const std::vector<Discretisation>& nodes) {
-  return move_densities(density.value, density.nodes, nodes);
+// Turns the surfaces of the walls; `way`: driving times the time that passes, `path`: the sum of it all.
+void turn_walls(Suspension& bodies, double way, double path) {
+  for (Body& body : bodies)
+    if (body.fixed) body.pose.angle += body.surface.angular_velocity * way;
+  if (bodies.container) bodies.container->angle = bodies.container->surface.angular_velocity * path;
 }
 
-// The first and the last body that a wrench acts on: those of a contact.
-std::pair<int, int> ends_of(const std::vector<Wrench>& wrenches) {
-  std::pair<int, int> ends{-1, -1};
-  for (std::size_t i = 0; i < wrenches.size(); ++i) {
-    if (wrenches[i].force == Complex(0.0) && wrenches[i].torque == 0.0) continue;
-    if (ends.first < 0) ends.first = static_cast<int>(i);
-    ends.second = static_cast<int>(i);
+void add(Wrench& sum, double weight, const Wrench& other) {
+  sum.force += weight * other.force;
+  sum.torque += weight * other.torque;
+}
+
+// Multipliers add up; the constraint is that of the latest stage.
+void add(std::vector<ActiveContact>& sum, double weight, const std::vector<ActiveContact>& contacts) {
+  const auto identity = [](const ActiveContact& c) { return std::tuple(c.constraint.a, c.constraint.b, c.constraint.region); };
+  for (const ActiveContact& c : contacts) {
+    const auto place = std::lower_bound(sum.begin(), sum.end(), c, [&](const auto& u, const auto& v) { return identity(u) < identity(v); });
+    if (place == sum.end() || identity(*place) != identity(c))
+      sum.insert(place, {c.constraint, weight * c.multiplier});
+    else
+      *place = {c.constraint, place->multiplier + weight * c.multiplier};
   }
-  return ends;
 }
 
-bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {
-  return std::equal(u.begin(), u.end(), v.begin(), v.end(),
-                    [](const Wrench& a, const Wrench& b) { return a.force == b.force && a.torque == b.torque; });
+// What a stage contributes to the outcome of a step.
+void add_stage(StepOutcome& outcome, const Stage& stage) {
+  const ContactSolution& solution = stage.solution;
+  const StokesSystem& system = stage.at->system();
+  const Suspension& bodies = stage.at->bodies();
+  std::vector<Wrench> wrenches = solution.wrenches;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    wrenches[i].force += bodies[i].force, wrenches[i].torque += bodies[i].torque;
+  const std::vector<Wrench> reaction = system.reactions(solution.density);
+  const std::vector<Complex> stresslets = system.stresslets(solution.density, wrenches);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    add(outcome.contact_wrench[i], stage.weight, solution.wrenches[i]);
+    add(outcome.reaction[i], stage.weight, reaction[i]);
+    outcome.stresslets[i] += stage.weight * stresslets[i];
+  }
+  add(outcome.container_contact, stage.weight, solution.container_wrench);
+  add(outcome.container, stage.weight, system.container_wrench(solution.density, wrenches));
+  add(outcome.contacts, stage.weight, solution.contacts);
+  outcome.density_tail = std::max(outcome.density_tail, system.density_tail(solution.density));
+  outcome.estimated_error = std::max(outcome.estimated_error, stage.at->estimated_error());
+}
+
+// Of no stage: anything adds to itself.
+StepOutcome empty_outcome(std::size_t bodies) {
+  constexpr Wrench none{{-0.0, -0.0}, -0.0};
+  StepOutcome outcome;
+  outcome.contact_wrench.assign(bodies, none);
+  outcome.reaction.assign(bodies, none);
+  outcome.container_contact = outcome.container = none;
+  outcome.stresslets.assign(bodies, {-0.0, -0.0});
+  return outcome;
 }
 
 }  // namespace
 
-std::vector<Discretisation> given_nodes(const Suspension& bodies, const StepperOptions& options) {
-  std::vector<Discretisation> nodes = options.refine == Refine::near
-                                          ? refined_nodes(bodies, options.points_per_body, near_tolerance)
-                                          : equal_nodes(bodies, options.points_per_body);
-  if (bodies.container) nodes.push_back({bodies.container->points, {}});
-  return nodes;
-}
+// The present configuration and everything that steps leave, hidden from the users of a stepper.
+class Stepper::State : public StepStart {
+ public:
+  State(Suspension bodies, const StepperOptions& options)
+      : bodies_(std::move(bodies)), fluid_(options), contacts_(options), integrator_(make_integrator(options)) {}
+
+  const Suspension& bodies() const override { return bodies_; }
+  const ShapeCache& shapes() const { return fluid_.shapes; }
+
+  std::shared_ptr<Configuration> at_start(double driving) {
+    driving_ = driving;
+    return configuration();
+  }
+
+  std::shared_ptr<Configuration> configuration() override {
+    if (!start_ || start_->driving() != driving_) {
+      start_.reset();
+      start_ = std::make_shared<Configuration>(bodies_, memory_.path, driving_, fluid_, memory_);
+    }
+    return start_;
+  }
+
+  std::shared_ptr<Configuration> configuration(const std::vector<Pose>& poses, double elapsed) override {
+    Suspension bodies = bodies_;
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
+    const double path = memory_.path + driving_ * elapsed;
+    turn_walls(bodies, driving_ * elapsed, path);
+    return std::make_shared<Configuration>(std::move(bodies), path, driving_, fluid_, memory_);
+  }
+
+  ContactSolution solve(Configuration& at, const std::vector<Pose>& base, double length) override {
+    return contacts_.solve(bodies_, at, base, length, ncp_);
+  }
+
+  std::vector<RigidVelocity> contact_velocity(Configuration& at, const std::vector<ActiveContact>& contacts) override {
+    return contacts_.respond(at, contacts).velocity;
+  }
+
+  StepOutcome attempt(double dt, double driving, const NcpOptions& ncp) {
+    driving_ = driving;
+    ncp_ = ncp;
+    dt_ = dt;
+    contacts_.matrix().reject();
+    trial_ = integrator_->attempt(*this, dt);
+    StepOutcome outcome = empty_outcome(bodies_.size());
+    outcome.failure = trial_.failure;
+    outcome.accepted = trial_.failure.empty();
+    outcome.dt = dt;
+    outcome.driving = driving;
+    outcome.background_iterations = start_->background_iterations();
+    outcome.gmres_iterations = fluid_.effort.gmres_iterations;
+    outcome.ncp_iterations = fluid_.effort.ncp_iterations;
+    outcome.stokes_solves = fluid_.effort.stokes_solves;
+    if (!outcome.accepted) return outcome;
+    for (const Stage& stage : trial_.stages) add_stage(outcome, stage);
+    if (trial_.stages[0].at == start_) {
+      outcome.at_start = start_;
+      outcome.density = trial_.stages[0].solution.density;
+    }
+    outcome.velocity = trial_.velocity;
+    outcome.unresolved = start_->unresolved();
+    outcome.shortfalls = start_->shortfalls();
+    for (const Discretisation& d : start_->nodes()) {
+      outcome.nodes += d.size();
+      outcome.clusters += static_cast<int>(d.clusters.size());
+      outcome.most_nodes = std::max(outcome.most_nodes, d.size());
+    }
+    return outcome;
+  }
+
+  void accept() {
+    integrator_->accept(trial_, dt_);
+    std::vector<const Configuration*> configurations;
+    for (const Stage& stage : trial_.stages) configurations.push_back(stage.at.get());
+    contacts_.matrix().accept(configurations);
+    memory_.background.append({memory_.path, start_->nodes(), start_->driving() * start_->contact_free().density});
+    memory_.total = {memory_.path, start_->nodes(), trial_.stages.front().solution.density};
+    memory_.resolution = trial_.stages.back().at->resolution();
+    for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = trial_.poses[i];
+    const double way = driving_ * dt_;
+    memory_.path += way;
+    turn_walls(bodies_, way, memory_.path);
+    fluid_.effort = {};
+    start_.reset();
+    trial_ = {};
+  }
+
+  void save(StateWriter& writer) const {
+    std::vector<double> poses;
+    for (const Body& body : bodies_)
+      poses.insert(poses.end(), {body.pose.centre.real(), body.pose.centre.imag(), body.pose.angle});
+    writer.line("poses", poses);
+    memory_.save(writer);
+    contacts_.matrix().save(writer);
+    integrator_->save(writer);
+  }
+
+  void restore(StateReader& reader) {
+    const std::vector<double> poses = reader.numbers("poses");
+    if (poses.size() != 3 * bodies_.size()) throw std::runtime_error("it has another number of bodies");
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      bodies_[i].pose = {{poses[3 * i], poses[3 * i + 1]}, poses[3 * i + 2]};
+    memory_ = FluidMemory::restored(reader);
+    contacts_.matrix().restore(reader);
+    integrator_->restore(reader);
+    turn_walls(bodies_, 0.0, memory_.path);
+    start_.reset();
+  }
+
+ private:
+  Suspension bodies_;
+  Fluid fluid_;
+  ContactProblem contacts_;
+  std::unique_ptr<Integrator> integrator_;
+  FluidMemory memory_;
+
+  // Of the step under way.
+  double driving_ = 1.0, dt_ = 0.0;
+  NcpOptions ncp_;
+  std::shared_ptr<Configuration> start_;
+  Trial trial_;
+};
 
 Stepper::Stepper(Suspension bodies, const StepperOptions& options)
-    : bodies_(std::move(bodies)), options_(options), shapes_(options.near_singular) {}
+    : state_(std::make_unique<State>(std::move(bodies), options)) {}
+Stepper::~Stepper() = default;
+
+const Suspension& Stepper::bodies() const { return state_->bodies(); }
+int Stepper::factorisations() const { return state_->shapes().factorisations(); }
 
 int Stepper::shape_count() const {
   std::vector<Shape> distinct;
-  for (const Body& body : bodies_)
+  for (const Body& body : bodies())
     if (std::find(distinct.begin(), distinct.end(), body.shape) == distinct.end()) distinct.push_back(body.shape);
   return static_cast<int>(distinct.size());
 }
 
-BackgroundFlow Stepper::driven(double driving) const {
-  return {options_.flow.kind, driving * options_.flow.rate, driving};
-}
+StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) { return state_->attempt(dt, driving, ncp); }
+void Stepper::accept() { state_->accept(); }
 
-// Polynomial through the densities of a history, in the path through configurations: with it the flow may turn back,
-// and the first step back starts from what was there. Densities live in the body frames, so they are already turned
-// with their bodies.
-ComplexVector Stepper::extrapolated(const std::vector<StepperMemory::Density>& history,
-                                    const std::vector<Discretisation>& nodes) const {
-  std::vector<const StepperMemory::Density*> known;
-  for (auto d = history.rbegin(); d != history.rend(); ++d) {
-    const auto close = [&d](const auto* k) { return std::abs(k->path - d->path) <= 1e-9 * std::abs(d->path); };
-    if (std::none_of(known.begin(), known.end(), close)) known.push_back(&*d);
-  }
-  int count = 0;
-  for (const Discretisation& d : nodes) count += d.size();
-  ComplexVector guess = ComplexVector::Zero(count);
-  for (const auto* d : known) {
-    double weight = 1.0;
-    for (const auto* other : known)
-      if (other != d) weight *= (memory_.path - other->path) / (d->path - other->path);
-    guess += weight * moved(*d, nodes);
-  }
-  return guess;
-}
-
-Stepper::Configuration& Stepper::configuration(double driving) {
-  if (now_ && now_->driving == driving) return *now_;
-  now_.emplace();
-  now_->driving = driving;
-  std::vector<Wrench> external;
-  for (const Body& body : bodies_) external.push_back({body.force, body.torque});
-  StokesSolution solution;
-  try {
-    solution = solve_contact_free(*now_, external);
-  } catch (...) {
-    now_.reset();  // a configuration without its velocities is none
-    throw;
-  }
-  now_->gmres_iterations = now_->background_iterations = solution.iterations;
-  now_->data_norm = solution.data_norm;
-  now_->contact_free = {std::move(solution.velocity), std::move(solution.density)};
-  return *now_;
-}
-
-// Makes the system, too.
-StokesSolution Stepper::solve_contact_free(Configuration& now, const std::vector<Wrench>& external) {
-  const auto guess = [&](const std::vector<Discretisation>& nodes) {
-    return ComplexVector(now.driving * extrapolated(memory_.background, nodes));
-  };
-  if (options_.accuracy > 0.0) {
-    now.resolution = memory_.resolution;
-    ResolvedSystem resolved = solve_to_accuracy({bodies_, driven(now.driving), external, guess}, options_.accuracy,
-                                                options_.stokes, shapes_, alone_, now.resolution);
-    now.nodes = std::move(resolved.nodes);
-    now.system = std::move(resolved.system);
-    now.estimated_error = resolved.error;
-    now.unresolved = static_cast<int>(resolved.unresolved.size());
-    now.stokes_solves = resolved.solves;
-    return std::move(resolved.solution);
-  }
-  now.nodes = given_nodes(bodies_, options_);
-  now.shortfalls = shortfalls(bodies_, now.nodes, alone_);
-  now.unresolved = static_cast<int>(now.shortfalls.size());
-  now.system = std::make_unique<StokesSystem>(bodies_, now.nodes, shapes_, options_.stokes);
-  now.stokes_solves = 1;
-  if (options_.coupling == Coupling::local && memory_.total.value.size() > 0)
-    return now.system->sweep(driven(now.driving), external, moved(memory_.total, now.nodes));
-  return now.system->solve(driven(now.driving), external, guess(now.nodes));
-}
-
-void Stepper::restore(const std::vector<Pose>& poses, StepperMemory memory) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = poses[i];
-  memory_ = std::move(memory);
-  turn_walls(0.0);
-  now_.reset();
-}
-
-Response Stepper::respond(Configuration& now, const std::vector<Wrench>& wrenches, const ComplexVector& guess,
-                          double scale) {
-  for (const auto& [known, response] : now.answers)
-    if (same(known, wrenches)) return response;
-  StokesSolution solution = now.system->solve({}, wrenches, guess, scale);
-  now.gmres_iterations += solution.iterations;
-  ++now.stokes_solves;
-  now.answers.push_back({wrenches, {std::move(solution.velocity), std::move(solution.density)}});
-  return now.answers.back().second;
-}
-
-// A contact's force changes little from one iterate to the next, more from step to step.
-Response Stepper::respond_to_contact(Configuration& now, const std::vector<Wrench>& wrenches) {
-  const auto ends = ends_of(wrenches);
-  const auto same_ends = [&ends](const auto& answer) { return ends_of(answer.first) == ends; };
-  if (const auto latest = std::find_if(now.answers.rbegin(), now.answers.rend(), same_ends); latest != now.answers.rend())
-    return respond(now, wrenches, latest->second.density);
-  const auto past = memory_.contacts.find(ends);
-  return respond(now, wrenches, past == memory_.contacts.end() ? ComplexVector() : extrapolated(past->second, now.nodes));
-}
-
-Response Stepper::respond_nearby(const Configuration& now, const std::vector<Wrench>& wrenches) const {
-  StokesSolution solution = now.system->solve_nearby(wrenches, column_tolerance);
-  return {std::move(solution.velocity), std::move(solution.density)};
-}
-
-// No body feels the forces on another; the densities answer a rigid motion with nothing.
-Response Stepper::respond_alone(const Configuration& now, const std::vector<Wrench>& wrenches) const {
-  Response response{{}, ComplexVector::Zero(now.system->node_count())};
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    response.velocity.push_back(completion_trace(bodies_[i].shape, bodies_[i].pose, wrenches[i]));
-  return response;
-}
-
-ContactMobility Stepper::contact_mobility(Configuration& now, LcpMatrix matrix, Learnt learnt) {
-  const ResponseFunction full = [this, &now](const auto& w, const auto& guess) {
-    return respond(now, w, guess, now.data_norm);
-  };
-  const MobilityFunction column = [this, &now](const auto& w) { return respond_to_contact(now, w); };
-  const MobilityFunction nearby = [this, &now](const auto& w) { return respond_nearby(now, w); };
-  const MobilityFunction alone = [this, &now](const auto& w) { return respond_alone(now, w); };
-  if (options_.coupling == Coupling::local) return {alone, {}, {}};
-  if (matrix == LcpMatrix::full) return {column, {}, {}};
-  if (matrix == LcpMatrix::self) return {alone, full, {}};
-  if (options_.contact == ContactModel::stiv) return {nearby, full};  // whose forces are others at every iterate
-  if (learnt == Learnt::not_used) return {nearby, full, true};
-  ContactMobility mobility{nearby, full, true, memory_.known};
-  for (const StepperMemory::Density& answer : memory_.answers) mobility.answers.push_back(moved(answer, now.nodes));
-  return mobility;
-}
-
-NcpResult Stepper::resolve(Configuration& now, double dt, const NcpOptions& ncp, LcpMatrix matrix, Learnt learnt) {
-  const ContactMobility mobility = contact_mobility(now, matrix, learnt);
-  const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
-    NcpOptions options = ncp;
-    if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;
-    options.check_mobility = options_.contact == ContactModel::gap && options_.coupling == Coupling::global;
-    return resolve_contacts(bodies_, now.contact_free, dt, constraints, mobility, options, balance);
-  };
-  switch (options_.contact) {
-    case ContactModel::gap: {
-      const GapCollector collector(bodies_, options_.separation);
-      return solve([&](const auto& trial, const auto& tracked) { return collector.collect(trial, tracked); }, {});
-    }
-    case ContactModel::stiv: {
-      const int vertices = options_.stiv_vertices > 0 ? options_.stiv_vertices : 4 * options_.points_per_body;
-      const StivCollector collector(bodies_, options_.separation, {vertices, options_.stiv_gradient});
-      return solve([&](const auto& trial, const auto&) { return collector.collect(trial); }, balance_clusters);
-    }
-    case ContactModel::none: break;
-  }
-  return solve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
-}
-
-// A failure may be due to what was learnt in other configurations or to columns of nearby bodies: columns anew come
-// first, whole ones last.
-NcpResult Stepper::resolve_nearby(double dt, double driving, const NcpOptions& ncp) {
-  NcpOptions at_first = ncp;
-  at_first.max_iterations = std::min(ncp.max_iterations, nearby_iterations);
-  Configuration& now = configuration(driving);
-  NcpResult result = resolve(now, dt, at_first, LcpMatrix::near);
-  if (!result.solved && !memory_.known.contacts.empty()) {
-    now.ncp_iterations += result.iterations;
-    result = resolve(now, dt, at_first, LcpMatrix::near, Learnt::not_used);
-  }
-  if (result.solved) return result;
-  now.ncp_iterations += result.iterations;
-  return resolve(now, dt, ncp, LcpMatrix::full);
-}
-
-StepOutcome Stepper::attempt(double dt, double driving, const NcpOptions& ncp) {
-  NcpResult result = options_.lcp_matrix == LcpMatrix::near
-                         ? resolve_nearby(dt, driving, ncp)
-                         : resolve(configuration(driving), dt, ncp, options_.lcp_matrix);
-  Configuration& now = *now_;
-  now.ncp_iterations += result.iterations;
-
-  StepOutcome outcome;
-  outcome.accepted = result.solved;
-  outcome.failure = result.failure;
-  outcome.dt = dt;
-  outcome.driving = driving;
-  outcome.gmres_iterations = now.gmres_iterations;
-  outcome.background_iterations = now.background_iterations;
-  outcome.ncp_iterations = now.ncp_iterations;
-  outcome.stokes_solves = now.stokes_solves;
-  if (result.solved) accept(now, dt, result, outcome);
+StepOutcome Stepper::step(double dt, double driving, const NcpOptions& ncp) {
+  StepOutcome outcome = attempt(dt, driving, ncp);
+  if (outcome.accepted) accept();
   return outcome;
 }
 
-void Stepper::remember(Configuration& now, ComplexVector total, KnownContacts known) {
-  const auto append = [&](std::vector<StepperMemory::Density>& history, ComplexVector density) {
-    history.push_back({memory_.path, now.nodes, std::move(density)});
-    if (history.size() > extrapolation_points) history.erase(history.begin());
-  };
-  append(memory_.background, now.driving * now.contact_free.density);
-  std::map<std::pair<int, int>, std::vector<StepperMemory::Density>> contacts;
-  if (options_.lcp_matrix == LcpMatrix::full)
-    for (auto& [wrenches, response] : now.answers) {
-      auto& history = contacts[ends_of(wrenches)];
-      if (const auto past = memory_.contacts.find(ends_of(wrenches)); past != memory_.contacts.end() && history.empty())
-        history = std::move(past->second);
-      append(history, std::move(response.density));
-    }
-  memory_.contacts = std::move(contacts);
-  if (options_.lcp_matrix == LcpMatrix::near && options_.contact == ContactModel::gap && !known.contacts.empty()) {
-    if (known.multipliers.cols() == 1) memory_.answers.clear();
-    append(memory_.answers, total - now.contact_free.density);
-    memory_.known = std::move(known);
-    memory_.known.multipliers = memory_.known.multipliers.rightCols(static_cast<Eigen::Index>(memory_.answers.size())).eval();
-  } else {
-    memory_.known = {};
-    memory_.answers.clear();
-  }
-  memory_.total = {memory_.path, now.nodes, std::move(total)};
-  memory_.resolution = now.resolution;
-}
-
-// `way`: driving times the length of the step just made.
-void Stepper::turn_walls(double way) {
-  memory_.path += way;
-  for (Body& body : bodies_)
-    if (body.fixed) body.pose.angle += body.surface.angular_velocity * way;
-  if (bodies_.container) bodies_.container->angle = bodies_.container->surface.angular_velocity * memory_.path;
-}
-
-void Stepper::accept(Configuration& now, double dt, NcpResult& result, StepOutcome& outcome) {
-  outcome.contacts = std::move(result.contacts);
-  outcome.contact_wrench = std::move(result.wrenches);
-  outcome.container_contact = result.container_wrench;
-  outcome.reaction = now.system->reactions(result.motion.density);
-  std::vector<Wrench> wrenches = outcome.contact_wrench;
-  for (std::size_t i = 0; i < bodies_.size(); ++i)
-    wrenches[i].force += bodies_[i].force, wrenches[i].torque += bodies_[i].torque;
-  outcome.container = now.system->container_wrench(result.motion.density, wrenches);
-  outcome.stresslets = now.system->stresslets(result.motion.density, wrenches);
-  outcome.density_tail = now.system->density_tail(result.motion.density);
-  outcome.estimated_error = now.estimated_error;
-  outcome.unresolved = now.unresolved;
-  outcome.shortfalls = now.shortfalls;
-  for (const Discretisation& d : now.nodes) {
-    outcome.nodes += d.size();
-    outcome.clusters += static_cast<int>(d.clusters.size());
-    outcome.most_nodes = std::max(outcome.most_nodes, d.size());
-  }
-  outcome.velocity = std::move(result.motion.velocity);
-  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = result.poses[i];
-  outcome.density = result.motion.density;
-  remember(now, std::move(result.motion.density), std::move(result.known));
-  outcome.system = std::move(now.system);
-  turn_walls(now.driving * dt);
-  now_.reset();
-}
+void Stepper::save(StateWriter& writer) const { state_->save(writer); }
+void Stepper::restore(StateReader& reader) { state_->restore(reader); }
 
 double Stepper::geometric_step_limit(double driving) {
-  const std::vector<RigidVelocity>& u = configuration(driving).contact_free.velocity;
+  const std::shared_ptr<Configuration> at = state_->at_start(driving);
+  const std::vector<RigidVelocity>& u = at->contact_free().velocity;
+  const Suspension& all = bodies();
   double limit = std::numeric_limits<double>::infinity(), width = 0.0;
-  std::vector<Pose> poses;
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+  for (std::size_t i = 0; i < all.size(); ++i) {
     if (u[i].omega != 0.0) limit = std::min(limit, 0.2 / std::abs(u[i].omega));
-    poses.push_back(bodies_[i].pose);
-    if (!bodies_[i].fixed) width = std::max(width, bodies_[i].shape.inradius());
+    if (!all[i].fixed) width = std::max(width, all[i].shape.inradius());
   }
-  for (const auto& [i, j] : contact_candidates(bodies_, poses, width)) {
+  for (const auto& [i, j] : contact_candidates(all, poses_of(all), width)) {
     Complex approach = u[i].velocity;
-    double smaller = bodies_[i].shape.inradius();
+    double smaller = all[i].shape.inradius();
     if (j != container_index) {
       approach -= u[j].velocity;
-      smaller = std::min(smaller, bodies_[j].shape.inradius());
+      smaller = std::min(smaller, all[j].shape.inradius());
     }
     if (approach != 0.0) limit = std::min(limit, smaller / std::abs(approach));
   }

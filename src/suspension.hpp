@@ -15,6 +15,8 @@ struct Pose {
   Complex centre{0.0, 0.0};
   double angle = 0.0;
 
+  bool operator==(const Pose&) const = default;
+
   // Direction of the body's first axis; a vector v in the body frame is axis() * v in the laboratory's.
   Complex axis() const { return std::polar(1.0, angle); }
 };

@@ -58,7 +58,7 @@ inline StepperOptions accurate_steps(int points, double separation) {
 // One accepted step from the given poses.
 inline StepOutcome one_step(const Suspension& bodies, const StepperOptions& options, double dt = 1e-3,
                             double driving = 1.0) {
-  return Stepper(bodies, options).attempt(dt, driving, {});
+  return Stepper(bodies, options).step(dt, driving, {});
 }
 
 // Largest difference of velocities and angular velocities of the first bodies, over the largest of them.

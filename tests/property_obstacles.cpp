@@ -111,7 +111,7 @@ TEST_CASE("beside the container or a fixed body an adaptive step is as short as 
     for (const Suspension& bodies : {wall, obstacle}) {
       Stepper stepper(bodies, StepperOptions{});
       const double limit = stepper.geometric_step_limit(1.0);
-      const StepOutcome outcome = stepper.attempt(1e-9, 1.0, {});
+      const StepOutcome outcome = stepper.step(1e-9, 1.0, {});
       REQUIRE(outcome.accepted);
       // Along the axis of symmetry nothing turns: it is the width, or there is no limit.
       CHECK(std::abs(outcome.velocity[0].omega) < 1e-6);

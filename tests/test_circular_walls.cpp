@@ -64,8 +64,8 @@ TEST_CASE("walls that turn have nodes that turn, forwards and backwards, and sta
   Suspension bodies = bodies_beside_walls(128);
   bodies.back().surface.angular_velocity = -0.5;
   Stepper stepper(bodies, accurate_steps(32, 0.0));
-  REQUIRE(stepper.attempt(0.02, 1.0, {}).accepted);
-  REQUIRE(stepper.attempt(0.01, 1.0, {}).accepted);
+  REQUIRE(stepper.step(0.02, 1.0, {}).accepted);
+  REQUIRE(stepper.step(0.01, 1.0, {}).accepted);
   CHECK(std::abs(stepper.bodies().container->angle - 0.03 * outer_rotation) < 1e-15);
   CHECK(std::abs(stepper.bodies().back().pose.angle + 0.03 * 0.5) < 1e-15);
   CHECK(stepper.bodies().back().pose.centre == 0.0);
@@ -77,7 +77,7 @@ TEST_CASE("walls that turn have nodes that turn, forwards and backwards, and sta
     CHECK(std::abs(outer.node(k) - std::polar(10.0, 2.0 * pi * k / 128 + 0.06)) < 1e-13);
     CHECK(std::abs(inner.node(k) - std::polar(5.0, 2.0 * pi * k / 128 - 0.015)) < 1e-13);
   }
-  REQUIRE(stepper.attempt(0.03, -1.0, {}).accepted);
+  REQUIRE(stepper.step(0.03, -1.0, {}).accepted);
   CHECK(std::abs(stepper.bodies().container->angle) < 1e-15);
   CHECK(std::abs(stepper.bodies().back().pose.angle) < 1e-15);
 }

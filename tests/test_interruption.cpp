@@ -88,7 +88,7 @@ TEST_CASE("an interruption while a state is recorded is told with that state") {
   const Suspension bodies = read_suspension(c);
   SimulationOptions options = options_of(c, bodies);
   std::vector<std::pair<long, RunStage>> told;
-  options.observe_state = [&](const RunState& state, RunStage stage) { told.push_back({state.clock.step, stage}); };
+  options.observe_state = [&](const RunState& state, RunStage stage) { told.push_back({state.step(), stage}); };
   const auto stop = [](const StepRecord& record) {
     if (record.step == 2) throw Interruption{SIGTERM};
   };

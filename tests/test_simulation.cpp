@@ -183,7 +183,7 @@ TEST_CASE("no adaptive step turns a body by more than 0.2 or brings neighbours c
   const Suspension meeting = {body(0.5, 0.3, -0.6, 0.0, 40.0), body(0.5, 0.2, 0.6, 0.0, -40.0)};
   Stepper stepper(meeting, how.stepper);
   const double limit = stepper.geometric_step_limit(1.0);
-  const std::vector<RigidVelocity> u = stepper.attempt(1e-9, 1.0, {}).velocity;
+  const std::vector<RigidVelocity> u = stepper.step(1e-9, 1.0, {}).velocity;
   CHECK(std::abs(limit * std::abs(u[1].velocity - u[0].velocity) - 0.2) < 1e-12);
   CHECK(stepper.bodies()[1].pose.centre.real() < 0.6);  // they do approach
 }
@@ -217,11 +217,11 @@ TEST_CASE("a rejected attempt leaves the bodies bit for bit, and a later one doe
   Stepper disturbed(pressed, pressing()), untouched(pressed, pressing());
   for (int step = 0; step < 3; ++step) {
     const Suspension before = disturbed.bodies();
-    const StepOutcome rejected = disturbed.attempt(0.2, 1.0, none_allowed);
+    const StepOutcome rejected = disturbed.step(0.2, 1.0, none_allowed);
     CHECK_FALSE(rejected.accepted);
     CHECK(rejected.failure.find("bodies 0 and 1") != std::string::npos);
     CHECK(same_bits(disturbed.bodies(), before));
-    const StepOutcome later = disturbed.attempt(0.1, 1.0, usual), alone = untouched.attempt(0.1, 1.0, usual);
+    const StepOutcome later = disturbed.step(0.1, 1.0, usual), alone = untouched.step(0.1, 1.0, usual);
     REQUIRE(later.accepted);
     REQUIRE(alone.accepted);
     CHECK_FALSE(later.contacts.empty());
@@ -237,18 +237,18 @@ TEST_CASE("iterations count all attempts from one configuration") {
   askew[1].pose.centre = {0.2, 0.52};
   askew[0].force = {0.0, 60.0}, askew[1].force = {0.0, -60.0};
   Stepper stepper(askew, pressing());
-  const StepOutcome failed = stepper.attempt(0.1, 1.0, {1, false});
-  const StepOutcome accepted = stepper.attempt(0.1, 1.0, {});
+  const StepOutcome failed = stepper.step(0.1, 1.0, {1, false});
+  const StepOutcome accepted = stepper.step(0.1, 1.0, {});
   REQUIRE(accepted.accepted);
   Stepper fresh(askew, pressing());
-  const StepOutcome alone = fresh.attempt(0.1, 1.0, {});
+  const StepOutcome alone = fresh.step(0.1, 1.0, {});
   CHECK(failed.accepted == false);
   CHECK(accepted.ncp_iterations == failed.ncp_iterations + alone.ncp_iterations);
   CHECK(failed.ncp_iterations == 1);
 
   StepperOptions contact_free = pressing();
   contact_free.contact = ContactModel::none;
-  const int background = Stepper(askew, contact_free).attempt(0.1, 1.0, {}).gmres_iterations;
+  const int background = Stepper(askew, contact_free).step(0.1, 1.0, {}).gmres_iterations;
   CHECK(background > 0);
   CHECK(alone.gmres_iterations > background);  // the contact's own solve is counted
 }
@@ -317,7 +317,7 @@ TEST_CASE("interference volumes part bodies that are in contact from the first s
   options.stokes.summation = Summation::fmm;  // which refuses what is not finite
   Stepper stepper({body(1.0, 0.3, {-1.02, 0.1}, 0.1, 10.0), body(1.0, 0.3, {0.32, 0.0}, 0.5 * pi, -10.0)}, options);
   for (int step = 0; step < 3; ++step) {
-    const StepOutcome outcome = stepper.attempt(0.1, 1.0, {});
+    const StepOutcome outcome = stepper.step(0.1, 1.0, {});
     REQUIRE_MESSAGE(outcome.accepted, outcome.failure);
     CHECK(outcome.ncp_iterations >= 2);  // each with answers to forces of its own
     CHECK(outcome.contacts.size() == 1);

@@ -1,0 +1,101 @@
+#include "contact_problem.hpp"
+
+#include <algorithm>
+
+#include "cluster.hpp"
+#include "contact_wrenches.hpp"
+
+namespace stokes {
+
+namespace {
+
+// Newton's method on interference volumes takes 3 to 6 iterations where it converges; it cycles where sliding
+// carries vertices across corners.
+constexpr int stiv_increments_after = 8;
+
+// By what the base poses are ahead of the start of the step, as a velocity over the length: with it,
+// start + length (shift + w) = base + length w. Empty if they are the start.
+std::vector<RigidVelocity> shift_of(const Suspension& start, const std::vector<Pose>& base, double length) {
+  std::vector<RigidVelocity> shift(start.size());
+  bool ahead = false;
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    if (start[i].fixed || base[i] == start[i].pose) continue;
+    ahead = true;
+    shift[i] = {(base[i].centre - start[i].pose.centre) / length, (base[i].angle - start[i].pose.angle) / length};
+  }
+  return ahead ? shift : std::vector<RigidVelocity>{};
+}
+
+// Nothing if `other` is empty.
+void add(std::vector<RigidVelocity>& velocity, double factor, const std::vector<RigidVelocity>& other) {
+  for (std::size_t i = 0; i < other.size(); ++i) {
+    velocity[i].velocity += factor * other[i].velocity;
+    velocity[i].omega += factor * other[i].omega;
+  }
+}
+
+}  // namespace
+
+ContactProblem::ContactProblem(const StepperOptions& options)
+    : options_(options), matrix_(make_contact_matrix(options)) {}
+
+ContactSolution ContactProblem::solve(const Suspension& start, Configuration& at, const std::vector<Pose>& base,
+                                      double length, const NcpOptions& ncp) {
+  const std::vector<RigidVelocity> shift = shift_of(start, base, length);
+  Response free = at.contact_free();
+  add(free.velocity, 1.0, shift);
+
+  NcpOptions options = ncp;
+  if (options_.contact == ContactModel::stiv) options.increments_after = stiv_increments_after;
+  options.check_mobility = options_.contact == ContactModel::gap && options_.coupling == Coupling::global;
+  const auto resolve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
+    return matrix_->resolve(
+        at,
+        [&](const ContactMobility& mobility, const NcpOptions& how) {
+          return resolve_contacts(start, free, length, constraints, mobility, how, balance);
+        },
+        options);
+  };
+  NcpResult result;
+  if (options_.contact == ContactModel::gap) {
+    const GapCollector collector(start, at.bodies(), options_.separation);
+    result = resolve([&](const auto& trial, const auto& tracked) { return collector.collect(trial, tracked); }, {});
+  } else if (options_.contact == ContactModel::stiv) {
+    const int vertices = options_.stiv_vertices > 0 ? options_.stiv_vertices : 4 * options_.points_per_body;
+    const StivCollector collector(start, options_.separation, {vertices, options_.stiv_gradient});
+    result = resolve([&](const auto& trial, const auto&) { return collector.collect(trial); }, balance_clusters);
+  } else {
+    result = resolve([](const auto&, const auto&) { return std::vector<ContactConstraint>{}; }, {});
+  }
+  at.effort().ncp_iterations += result.iterations;
+
+  if (result.solved) add(result.motion.velocity, -1.0, shift);
+  return {result.solved, std::move(result.failure), std::move(result.poses), std::move(result.motion.velocity),
+          std::move(result.motion.density), std::move(result.contacts), std::move(result.wrenches), result.container_wrench};
+}
+
+Response ContactProblem::respond(Configuration& at, const std::vector<ActiveContact>& contacts) {
+  const Suspension& bodies = at.bodies();
+  std::vector<std::pair<int, int>> pairs;
+  for (const ActiveContact& c : contacts) pairs.push_back({c.constraint.a, c.constraint.b});
+  std::vector<int> fixed;
+  std::vector<Pose> poses;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].fixed) fixed.push_back(static_cast<int>(i));
+    poses.push_back(bodies[i].pose);
+  }
+  std::vector<std::vector<Wrench>> units;
+  std::vector<double> multipliers;
+  const GapCollector collector(bodies, options_.separation);
+  for (const ContactConstraint& c : collector.collect(poses, pairs)) {
+    const auto known = std::find(pairs.begin(), pairs.end(), std::pair(c.a, c.b));
+    if (known == pairs.end()) continue;
+    ContactWrenches unit{std::vector<Wrench>(bodies.size()), {}};
+    unit.add(c, c.force, 1.0);
+    units.push_back(unit.on_all_but(fixed));
+    multipliers.push_back(contacts[known - pairs.begin()].multiplier);
+  }
+  return matrix_->respond(at, units, multipliers);
+}
+
+}  // namespace stokes

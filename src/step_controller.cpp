@@ -1,0 +1,94 @@
+#include "step_controller.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stokes {
+
+namespace {
+
+constexpr double smallest_part = 1e-6;  // of time_step
+
+// A step grows by half after three steps in a row that found their contacts in two iterations, and five since the latest
+// rejection.
+constexpr int easy_iterations = 2, easy_steps_to_grow = 3, quiet_steps_to_grow = 5;
+constexpr double growth = 1.5;
+
+}  // namespace
+
+StepController::StepController(const TimeOptions& options)
+    : options_(options), step_count_(std::max(1L, std::lround(options.end_time / options.time_step))),
+      next_(options.time_step) {}
+
+bool StepController::done() const {
+  const bool by_time = options_.adaptive || options_.time_counting == TimeCounting::accumulated;
+  return by_time ? !(time_ < options_.end_time) : step_ == step_count_;
+}
+
+double StepController::driving() const {
+  const double slack = options_.time_counting == TimeCounting::exact ? 1e-9 * options_.time_step : 0.0;
+  return options_.reverse_at && time_ >= *options_.reverse_at - slack ? -1.0 : 1.0;
+}
+
+double StepController::smallest_step() const { return smallest_part * options_.time_step; }
+
+std::vector<double> StepController::stops() const {
+  return options_.reverse_at ? std::vector<double>{*options_.reverse_at, options_.end_time}
+                             : std::vector<double>{options_.end_time};
+}
+
+double StepController::propose(double limit) const {
+  if (!options_.adaptive) {
+    const bool last = options_.time_counting == TimeCounting::exact && step_ + 1 == step_count_;
+    return last ? options_.end_time - time_ : options_.time_step;
+  }
+  const double dt = std::min(next_, limit);
+  for (const double stop : stops())
+    if (time_ < stop && time_ + dt > stop * (1.0 - 1e-12)) return stop - time_;
+  return dt;
+}
+
+void StepController::accept(const StepOutcome& outcome) {
+  ++step_;
+  if (options_.adaptive) {
+    const double reached = time_ + outcome.dt;
+    time_ = reached;
+    for (const double stop : stops())  // reached but for the rounding
+      if (std::abs(reached - stop) <= 1e-12 * stop) time_ = stop;
+    easy_steps_ = outcome.ncp_iterations <= easy_iterations ? easy_steps_ + 1 : 0;
+    ++since_rejection_;
+    if (easy_steps_ >= easy_steps_to_grow && since_rejection_ > quiet_steps_to_grow) {
+      next_ = std::min(options_.time_step, growth * next_);
+      easy_steps_ = 0;
+    }
+  } else if (options_.time_counting == TimeCounting::accumulated) {
+    time_ += outcome.dt;
+  } else {
+    time_ = step_ == step_count_ ? options_.end_time : static_cast<double>(step_) * options_.time_step;
+  }
+}
+
+bool StepController::reject(const StepOutcome& outcome) {
+  since_rejection_ = 0;
+  easy_steps_ = 0;
+  next_ = 0.5 * outcome.dt;
+  const bool again = options_.adaptive && next_ >= smallest_step();
+  rejected_ += again;
+  return again;
+}
+
+void StepController::save(StateWriter& writer) const {
+  writer.line("clock", step_, time_, next_, easy_steps_, since_rejection_, rejected_);
+}
+
+void StepController::restore(StateReader& reader) {
+  reader.begin("clock");
+  step_ = reader.integer<long>();
+  time_ = reader.number();
+  next_ = reader.number();
+  easy_steps_ = reader.integer<int>();
+  since_rejection_ = reader.integer<int>();
+  rejected_ = reader.integer<long>();
+}
+
+}  // namespace stokes
