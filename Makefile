@@ -187,6 +187,10 @@ COUETTE            = phi15_lambda3 phi10_lambda6 phi5_lambda6 phi10_lambda3 phi1
 COUETTE_CASES      = $(COUETTE:%=%_paper) phi10_lambda1_paper_halfstep phi10_lambda1_paper_quarterstep
 COUETTE_ALL_CASES  = $(foreach k,$(shell seq $(SEEDS)),$(COUETTE:%=%_seed$(k))) \
                      $(foreach v,points64 halfstep stiv,phi5_lambda3_paper_$(v))
+COUETTE_STEPS      = $(COUETTE:%=%_paper_ab2_250) $(COUETTE:%=%_paper_ab2_500)
+TG_ORDER_CASES     = $(foreach t,0.025 0.0125 0.00625 0.003125,euler_dt$(t)) $(foreach t,0.1 0.05 0.025,ab2_dt$(t)) \
+                       $(foreach t,0.2 0.1 0.05 0.0125,rk3_dt$(t))
+REVERSAL_CASES     = euler ab2 rk3 midpoint
 COUETTE_TABLES     = table2_order_parameter table3_effective_viscosity fig9_order_parameter fig10_effective_viscosity
 
 # $(call experiment,name,cases,quick cases,variants): `name` makes its cases, which decide the published numbers, and then
@@ -215,9 +219,16 @@ $(eval $(call experiment,ncp_iterations,$(NCP_CASES),$(NCP_CASES),$(NCP_VARIANTS
 $(eval $(call experiment,close_evaluation,$(CLOSE_CASES),$(CLOSE_CASES)))
 $(eval $(call experiment,fig4_taylor_green,$(FIG4_CASES),quick,$(FIG4_VARIANTS)))
 $(eval $(call experiment,taylor_green_claims,$(TG_CASES),points,$(TG_VARIANTS)))
-$(eval $(call experiment,couette_run,$(COUETTE_CASES),phi5_lambda3_paper_quick,$(COUETTE_ALL_CASES)))
+$(eval $(call experiment,couette_run,$(COUETTE_CASES),phi5_lambda3_paper_quick,$(COUETTE_ALL_CASES) $(COUETTE_STEPS)))
+$(eval $(call experiment,reversal,$(REVERSAL_CASES),$(REVERSAL_CASES)))
+$(eval $(call experiment,taylor_green_order,,,$(TG_ORDER_CASES)))
+$(eval $(call experiment,jeffery_steps,$(REVERSAL_CASES),$(REVERSAL_CASES)))
 $(eval $(call experiment,fig8_initial_configurations,$(COUETTE),$(COUETTE)))
 $(foreach t,$(COUETTE_TABLES),$(eval $(call experiment,$(t),$(if $(filter fig9%,$(t)),orbit),$(if $(filter fig9%,$(t)),orbit))))
+.PHONY: couette_step_limit
+couette_step_limit: $(BUILD)/couette_step_limit $(COUETTE_CASES:%=$(RESULTS)/couette_run/%.csv) $(COUETTE_STEPS:%=$(RESULTS)/couette_run/%.csv)
+	@$(BUILD)/couette_step_limit collect results=$(RESULTS)
+reproduce-all: couette_step_limit
 $(COUETTE_TABLES): couette_run
 $(COUETTE_TABLES:%=%-all): couette_run-all
 $(eval $(call experiment,fig6_injection,$(INJECTION_CASES),quick undisturbed,$(INJECTION_ALL_CASES)))

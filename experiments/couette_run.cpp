@@ -1,7 +1,8 @@
 // Section 4.4: one suspension between rotating cylinders for two revolutions of the outer one: order parameter,
 // effective viscosity, stress, contacts. Cases phi<percent>_lambda<aspect ratio>_paper, from the paper's start, and
 // _seed<k>, from other starts by the same rule; and variants of some: _halfstep, _quarterstep, _points64, _stiv
-// (interference volumes with balanced clusters) and the short _quick.
+// (interference volumes with balanced clusters) and the short _quick; _ab2_250 and _ab2_500, with second-order steps of
+// pi/250 and pi/500.
 //
 // The folder of a case holds a case file and its bodies, which `simulate` reads too, and the results of the run; an
 // interrupted run goes on from its checkpoint. <case>_series.csv has one row a step, <case>.csv the means over the second
@@ -25,6 +26,8 @@ std::vector<CouetteCase> all_cases() {
     for (int seed = 0; seed <= couette_seeds; ++seed) cases.push_back({s, seed, ""});
   for (const char* variant : {"stiv", "halfstep", "points64", "quick"})
     cases.push_back({couette_suspension("phi5_lambda3"), 0, variant});
+  for (const CouetteSuspension& s : couette_suspensions)
+    for (const char* variant : {"ab2_250", "ab2_500"}) cases.push_back({s, 0, variant});
   for (const char* variant : {"halfstep", "quarterstep"}) cases.push_back({couette_suspension("phi10_lambda1"), 0, variant});
   return cases;
 }
@@ -35,6 +38,10 @@ Case case_of(const CouetteCase& chosen) {
   c.time_step = couette_revolution / chosen.suspension.steps_a_revolution;
   if (chosen.variant == "halfstep") c.time_step /= 2.0;
   if (chosen.variant == "quarterstep") c.time_step /= 4.0;
+  if (chosen.variant.starts_with("ab2_")) {
+    c.integrator = IntegratorKind::ab2;
+    c.time_step = couette_revolution / (chosen.variant == "ab2_250" ? 250 : 500);
+  }
   c.end_time = (chosen.variant == "quick" ? 0.02 : chosen.suspension.revolutions) * couette_revolution;
   c.min_separation_length = couette_separation;
   c.contact = chosen.variant == "stiv" ? ContactModel::stiv : ContactModel::gap;

@@ -25,6 +25,9 @@ struct TwoDiscs {
   LcpMatrix lcp_matrix = LcpMatrix::full;
   int stiv_vertices = 0;             // 0: four for each point
   StivGradient stiv_gradient = StivGradient::full;
+  IntegratorKind integrator = IntegratorKind::euler;
+  double tolerance = 0.0;            // of rk3, which then chooses the steps
+  double gmres_tolerance = 1e-8;
 };
 
 struct TwoDiscRun {
@@ -34,7 +37,7 @@ struct TwoDiscRun {
   std::vector<int> ncp_iterations;    // of each step
   std::vector<double> multiplier;     // contact force of each step, 0 without
   double worst_force_balance = 0.0;   // largest net contact force or torque (about the origin)
-  long steps = 0, contact_steps = 0, gmres_iterations = 0, largest_ncp_iterations = 0;
+  long steps = 0, contact_steps = 0, gmres_iterations = 0, stokes_solves = 0, largest_ncp_iterations = 0;
   double smallest_gap_over_h = 0.0;
   long rejected = 0;
   int factorisations = 0;
@@ -67,6 +70,14 @@ inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
   options.stepper.lcp_matrix = parameters.lcp_matrix;
   options.stepper.stiv_vertices = parameters.stiv_vertices;
   options.stepper.stiv_gradient = parameters.stiv_gradient;
+  options.stepper.integrator = parameters.integrator;
+  options.stepper.stokes.gmres_tolerance = parameters.gmres_tolerance;
+  if (parameters.integrator != IntegratorKind::euler) options.stepper.contact_tolerance = 1e-6;
+  if (parameters.tolerance > 0.0) {
+    options.adaptive = true;
+    options.tolerance = options.stepper.tolerance = parameters.tolerance;
+    options.stepper.contact_tolerance = std::min(1e-6, 0.1 * parameters.tolerance);
+  }
   const Shape disc{disc_radius, disc_radius};
 
   TwoDiscRun run;
@@ -80,6 +91,7 @@ inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
     run.ncp_iterations.push_back(step.ncp_iterations);
     run.multiplier.push_back(step.contacts.empty() ? 0.0 : step.contacts[0].multiplier);
     run.gmres_iterations += step.gmres_iterations;
+    run.stokes_solves += step.stokes_solves;
     run.contact_steps += !step.contacts.empty();
     run.largest_ncp_iterations = std::max<long>(run.largest_ncp_iterations, step.ncp_iterations);
     Complex force = 0.0;

@@ -17,6 +17,7 @@ namespace {
 constexpr std::string_view without_effect[] = {"threads", "output", "overwrite", "checkpoint_every"};
 
 constexpr double standard_accuracy = 1e-4;  // without points_per_body
+constexpr double solver_part = 0.1;         // of a tolerance of steps, the most that solutions may be off
 
 std::vector<std::string> key_names() {
   std::vector<std::string> names;
@@ -199,11 +200,32 @@ void check_separation(const Case& c, const Limit& limit) {
   }
 }
 
+// Others than forward Euler need the complete fluid and exact gaps; an error that is held needs solutions that are better.
+void check_integrator(const Case& c, const Limit& limit) {
+  if (c.integrator != IntegratorKind::euler) {
+    limit(c.coupling == Coupling::global, "coupling", "needs integrator = euler: its densities lag one step behind.");
+    limit(c.contact != ContactModel::stiv, "contact",
+          "needs integrator = euler: interference volumes are measured along the way from the start of a step.");
+  }
+  if (!c.tolerance) return;
+  limit(*c.tolerance >= 1e-10 && *c.tolerance <= 0.1, "tolerance", "must be between 1e-10 and 0.1; try 1e-4.");
+  limit(c.adaptive, "adaptive", "contradicts tolerance, which chooses the steps; leave one of them out.");
+  const double largest = solver_part * *c.tolerance * (1.0 + 1e-12);
+  if (c.accuracy)
+    limit(*c.accuracy <= largest, limit.given.contains("accuracy") ? "accuracy" : "tolerance",
+          concat("must leave a tenth of tolerance = ", *c.tolerance, " to the solutions; try accuracy = ", solver_part * *c.tolerance, "."));
+  else
+    limit(c.gmres_tolerance <= largest, limit.given.contains("gmres_tolerance") ? "gmres_tolerance" : "tolerance",
+          concat("must leave a tenth of tolerance = ", *c.tolerance, " to the solutions; try gmres_tolerance = ",
+                 solver_part * *c.tolerance, "."));
+}
+
 // Limits of the values and of their combinations.
 void check_case(Case& c, const GivenKeys& given) {
   const Limit limit{given};
   check_geometry(c, limit);
   check_resolution(c, limit);
+  check_integrator(c, limit);
   limit(c.time_step > 0.0, "time_step", "must be greater than 0; a flow backwards has a negative rate.");
   limit(c.end_time > 0.0, "end_time", "must be greater than 0; a flow backwards has a negative rate.");
   // Steps are counted by an int.
@@ -252,6 +274,11 @@ Case parse_case(std::string_view content, const std::filesystem::path& file, con
   }
   for (const CaseKey& key : case_keys()) set(key);
   if (!given.contains("points_per_body") && !result.accuracy) result.accuracy = standard_accuracy;
+  if (result.tolerance && result.integrator == IntegratorKind::rk3) {
+    if (!given.contains("adaptive")) result.adaptive = true;
+    if (!given.contains("points_per_body") && !given.contains("accuracy"))
+      result.accuracy = std::max(1e-11, std::min(standard_accuracy, solver_part * *result.tolerance));
+  }
   check_case(result, given);
   return result;
 }

@@ -60,7 +60,9 @@ struct Case {
   double gmres_tolerance = 1e-8;                // relative true residual
   Refine refine = Refine::none;
   Summation summation = Summation::automatic;
+  IntegratorKind integrator = IntegratorKind::euler;
   bool adaptive = false;                        // reject and halve time steps
+  std::optional<double> tolerance;              // of the local error of a step, which then chooses the steps
   int output_every = 1;                         // steps
   std::vector<double> fields_at;                // times, increasing
   int field_points = 200;                       // on each side of the grid

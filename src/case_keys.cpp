@@ -37,6 +37,10 @@ Words<StivGradient> words_of(StivGradient) {
 Words<NearSingular> words_of(NearSingular) {
   return {{"cauchy", NearSingular::cauchy}, {"interpolation", NearSingular::interpolation}};
 }
+Words<IntegratorKind> words_of(IntegratorKind) {
+  return {{"euler", IntegratorKind::euler}, {"ab2", IntegratorKind::ab2}, {"rk3", IntegratorKind::rk3},
+          {"midpoint", IntegratorKind::midpoint}};
+}
 Words<TimeCounting> words_of(TimeCounting) {
   return {{"accumulated", TimeCounting::accumulated}, {"exact", TimeCounting::exact}};
 }
@@ -241,7 +245,15 @@ const std::vector<CaseKey>& case_keys() {
       optional("refine", &Case::refine, "near: more nodes where bodies are too close for those they have"),
       optional("summation", &Case::summation,
                "of the flows of all nodes; auto: direct for few of them; fmm to a tenth of gmres_tolerance, 1e-12 at best"),
+      optional("integrator", &Case::integrator,
+               "of the time steps: euler, first order, the paper's; ab2, second order at the same price; rk3, third order, three "
+               "times the price; midpoint, implicit: without contact a reversed flow takes the bodies back exactly"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
+      where({"integrator", [](const Case& c) { return c.integrator == IntegratorKind::rk3; },
+             "needs integrator = rk3, whose error is estimated; write it, or leave the tolerance out."},
+            optional("tolerance", &Case::tolerance, "none",
+                     "of the local error of a step, in largest semi-axes and radians: chooses the steps, of which time_step is "
+                     "the first and largest")),
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
       optional("fields_at", &Case::fields_at,
                "increasing times; fields_TIME.csv holds the flow of the first state then or after"),

@@ -16,7 +16,7 @@ constexpr double smallest_separation = 1e-7, smallest_of_extent = 1e-10;
 
 }  // namespace
 
-GapCollector::GapCollector(const Suspension& start, const Suspension& at, double separation)
+GapCollector::GapCollector(const Suspension& start, const Suspension& at, double separation, double tolerance)
     : start_(start), at_(at), separation_(separation) {
   if (separation_ == 0.0) {
     double smallest = start.front().shape.inradius(), extent = 0.0;
@@ -27,7 +27,7 @@ GapCollector::GapCollector(const Suspension& start, const Suspension& at, double
     if (start.container) extent = std::max(extent, std::abs(start.container->centre) + start.container->radius);
     separation_ = std::max(smallest_separation * smallest, smallest_of_extent * extent);
   }
-  tolerance_ = contact_tolerance * separation_;
+  tolerance_ = tolerance * separation_;
 }
 
 // Where the body ends inside, every plane that touches the wall is behind it: a hit on the way adds nothing.

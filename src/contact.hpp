@@ -51,10 +51,11 @@ class GapCollector {
   // separation >= 0. With 0 the bodies are kept 1e-7 of the smallest semi-axis apart,
   // or 1e-10 of the largest distance of a centre or of the container's wall from the origin.
   // `at`: the configuration in which the fluid is solved, that at the start of the step unless given.
-  GapCollector(const Suspension& start, const Suspension& at, double separation);
+  GapCollector(const Suspension& start, const Suspension& at, double separation, double tolerance = contact_tolerance);
   GapCollector(const Suspension& start, double separation) : GapCollector(start, start, separation) {}
 
   double separation() const { return separation_; }
+  double tolerance() const { return tolerance_; }  // length
 
   // The violated constraints at the trial poses and those of the `tracked` pairs, violated or not, sorted
   // by pair. Nothing is missed: every pair that comes closer than the tolerance allows is listed.

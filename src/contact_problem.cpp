@@ -58,7 +58,7 @@ ContactSolution ContactProblem::solve(const Suspension& start, Configuration& at
   };
   NcpResult result;
   if (options_.contact == ContactModel::gap) {
-    const GapCollector collector(start, at.bodies(), options_.separation);
+    const GapCollector collector(start, at.bodies(), options_.separation, options_.contact_tolerance);
     result = resolve([&](const auto& trial, const auto& tracked) { return collector.collect(trial, tracked); }, {});
   } else if (options_.contact == ContactModel::stiv) {
     const int vertices = options_.stiv_vertices > 0 ? options_.stiv_vertices : 4 * options_.points_per_body;

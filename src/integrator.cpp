@@ -3,9 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adams_bashforth.hpp"
+#include "implicit_midpoint.hpp"
 #include "runge_kutta.hpp"
 
 namespace stokes {
+
+std::vector<double> numbers_of(const std::vector<RigidVelocity>& velocities) {
+  std::vector<double> numbers;
+  for (const RigidVelocity& u : velocities) numbers.insert(numbers.end(), {u.velocity.real(), u.velocity.imag(), u.omega});
+  return numbers;
+}
+
+std::vector<RigidVelocity> velocities_of(const std::vector<double>& numbers) {
+  std::vector<RigidVelocity> velocities;
+  for (std::size_t k = 0; k + 2 < numbers.size(); k += 3)
+    velocities.push_back({{numbers[k], numbers[k + 1]}, numbers[k + 2]});
+  return velocities;
+}
 
 std::vector<RigidVelocity> mean_velocity(const std::vector<Stage>& stages) {
   std::vector<RigidVelocity> mean;
@@ -44,6 +59,14 @@ double error_norm(const Suspension& bodies, const std::vector<Pose>& one, const 
   return largest;
 }
 
-std::unique_ptr<Integrator> make_integrator(const StepperOptions&) { return std::make_unique<RungeKutta>(euler_tableau()); }
+std::unique_ptr<Integrator> make_integrator(const StepperOptions& options) {
+  switch (options.integrator) {
+    case IntegratorKind::euler: break;
+    case IntegratorKind::ab2: return std::make_unique<AdamsBashforth>();
+    case IntegratorKind::rk3: return std::make_unique<RungeKutta>(rk3_tableau(), options.tolerance > 0.0);
+    case IntegratorKind::midpoint: return std::make_unique<ImplicitMidpoint>(options);
+  }
+  return std::make_unique<RungeKutta>(euler_tableau());
+}
 
 }  // namespace stokes

@@ -38,8 +38,15 @@ class StepStart {
 
   virtual const Suspension& bodies() const = 0;
   virtual std::shared_ptr<Configuration> configuration() = 0;
-  // The bodies at poses reached `elapsed` time after the start, the walls turned so far. Solves the fluid there.
+  // The bodies at poses reached `elapsed` time after the start, the walls turned so far. Solves the fluid there;
+  // NumericalError where bodies overlap.
   virtual std::shared_ptr<Configuration> configuration(const std::vector<Pose>& poses, double elapsed) = 0;
+  // Where on the way through configurations the step is after this time.
+  virtual double path_after(double elapsed) const = 0;
+  // The step continues the one before: it is driven in the same way, and no bodies jumped in it to restore the separation.
+  virtual bool continues() const = 0;
+  // Smallest distance of the bodies at other poses, in separations.
+  virtual double relative_gap(const std::vector<Pose>& poses) const = 0;
   // The contact problem of this step (contact_problem.hpp).
   virtual ContactSolution solve(Configuration& at, const std::vector<Pose>& base, double length) = 0;
   // Velocities that forces between pairs of bodies, along the normals at the configuration, make there.
@@ -52,15 +59,18 @@ class Integrator {
 
   // A failure to solve a contact problem is told in the trial. NumericalError when GMRES fails at the start.
   virtual Trial attempt(StepStart& start, double dt) = 0;
+  // Remembers what the next step uses, if it continues() this one.
   virtual void accept(const Trial&, double /*dt*/) {}
-  // The next step does not use what the step before left: the driving has changed or the bodies have jumped.
-  virtual void restart() {}
 
   virtual void save(StateWriter&) const {}
   virtual void restore(StateReader&) {}
 };
 
 std::unique_ptr<Integrator> make_integrator(const StepperOptions& options);
+
+// For save() and restore(): three numbers a body.
+std::vector<double> numbers_of(const std::vector<RigidVelocity>& velocities);
+std::vector<RigidVelocity> velocities_of(const std::vector<double>& numbers);
 
 // Sum of the stages' velocities with their weights.
 std::vector<RigidVelocity> mean_velocity(const std::vector<Stage>& stages);

@@ -49,6 +49,9 @@ constexpr Column steps_table[] = {
     {"clusters", "places of boundaries that nodes are drawn to"},
     {"most_nodes", "of one boundary"},
     {"unresolved", "boundaries that do not keep the accuracy; of fixed nodes, pairs and bodies that they do not resolve"},
+    {"local_error", "estimated error of the step with a tolerance: of positions in largest semi-axes, of angles in radians"},
+    {"rejected_by_error", "attempts at the step whose error was above the tolerance"},
+    {"rejected_by_failure", "attempts at the step that failed"},
 };
 constexpr Column walls_table[] = {
     {"inner_torque", "of the inner wall on the fluid about its centre"},
@@ -208,7 +211,8 @@ void Recorder::write(const StepRecord& record) {
                          outcome->density_tail, static_cast<double>(outcome->stokes_solves), smallest, largest,
                          outcome->estimated_error, static_cast<double>(outcome->nodes),
                          static_cast<double>(outcome->clusters), static_cast<double>(outcome->most_nodes),
-                         static_cast<double>(outcome->unresolved)})
+                         static_cast<double>(outcome->unresolved), outcome->error.value_or(nan),
+                         static_cast<double>(outcome->rejected_by_error), static_cast<double>(outcome->rejected_by_failure)})
       summary.push_back(value);
     if (columns_ == StepsColumns::between_walls) {
       const ParticleStress stress = particle_stress(record.bodies, *outcome);

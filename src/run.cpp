@@ -202,6 +202,17 @@ class ResolutionWarnings {
   std::optional<Shortfall> worst_;
 };
 
+// Part of the separation. With 1e-4 of it the error of contacts is what limits higher orders than the first.
+double contact_tolerance_for(const Case& c, const Suspension& bodies, double separation) {
+  if (c.integrator == IntegratorKind::euler) return contact_tolerance;
+  constexpr double of_higher_order = 1e-6, of_tolerance = 0.1, least_length = 1e-11;  // the last in semi-axes
+  double smallest = bodies.front().shape.inradius();
+  for (const Body& body : bodies) smallest = std::min(smallest, body.shape.inradius());
+  if (separation < 1e-6 * smallest) return contact_tolerance;
+  const double wanted = std::min(of_higher_order, c.tolerance ? of_tolerance * *c.tolerance * smallest / separation : 1.0);
+  return std::max(wanted, least_length * smallest / separation);
+}
+
 }  // namespace
 
 SimulationOptions options_of(const Case& c, const Suspension& bodies) {
@@ -224,6 +235,9 @@ SimulationOptions options_of(const Case& c, const Suspension& bodies) {
   options.reverse_at = c.reverse_at;
   options.time_counting = c.time_counting;
   options.adaptive = c.adaptive;
+  options.tolerance = options.stepper.tolerance = c.tolerance.value_or(0.0);
+  options.stepper.integrator = c.integrator;
+  options.stepper.contact_tolerance = contact_tolerance_for(c, bodies, options.stepper.separation);
   return options;
 }
 

@@ -13,14 +13,23 @@ struct Tableau {
 };
 
 Tableau euler_tableau();
+// Third order, by Ralston; the first three stages of the pair of Bogacki and Shampine. c = 0, 1/2, 3/4.
+Tableau rk3_tableau();
 
 class RungeKutta : public Integrator {
  public:
-  explicit RungeKutta(Tableau tableau) : tableau_(std::move(tableau)) {}
+  // With an estimate, the error is the distance (error_norm) from the explicit midpoint step, which has a contact problem
+  // of its own with the fluid at the second stage, over the whole step. Both ends keep the separation, so that the
+  // velocity's jump at the onset of a contact is in both and cancels.
+  explicit RungeKutta(Tableau tableau, bool estimates = false) : tableau_(std::move(tableau)), estimates_(estimates) {}
   Trial attempt(StepStart& start, double dt) override;
 
  private:
+  void make_stages(StepStart& start, double dt, Trial& trial) const;
+  void estimate(StepStart& start, double dt, Trial& trial) const;
+
   Tableau tableau_;
+  bool estimates_;
 };
 
 }  // namespace stokes

@@ -19,7 +19,7 @@ constexpr int fixed_step_ncp_limit = 50, self_mobility_ncp_limit = 5000, adaptiv
 NcpOptions ncp_options(const SimulationOptions& options) {
   NcpOptions ncp;
   ncp.demand_progress = options.adaptive;
-  ncp.max_iterations = options.adaptive                                   ? adaptive_ncp_limit
+  ncp.max_iterations = options.adaptive && options.tolerance == 0.0    ? adaptive_ncp_limit
                        : options.stepper.lcp_matrix == LcpMatrix::self ? self_mobility_ncp_limit
                                                                           : fixed_step_ncp_limit;
   return ncp;
@@ -97,8 +97,14 @@ class Run : public RunState {
         return outcome;
       }
       outcome = stepper_.attempt(controller_.propose(limit), driving, ncp);
-      while (!outcome.accepted && controller_.reject(outcome))
+      while (!controller_.takes(outcome) && controller_.reject(outcome))
         outcome = stepper_.attempt(controller_.propose(outcome.dt), driving, ncp);
+      outcome.rejected_by_error = controller_.rejected_by_error();
+      outcome.rejected_by_failure = controller_.rejected_by_failure();
+      if (outcome.accepted && !controller_.takes(outcome)) {
+        outcome.accepted = false;
+        outcome.failure = concat("the error of the step is ", brief(*outcome.error), ", above the tolerance");
+      }
       if (!outcome.accepted)
         outcome.failure += options_.adaptive ? "; the step cannot be halved further"
                                              : "; adaptive = yes would halve the step";

@@ -14,6 +14,9 @@ constexpr double smallest_part = 1e-6;  // of time_step
 constexpr int easy_iterations = 2, easy_steps_to_grow = 3, quiet_steps_to_grow = 5;
 constexpr double growth = 1.5;
 
+// Of the rule by error (step_controller.hpp).
+constexpr double safety = 0.9, least_factor = 0.2, largest_factor = 3.0, least_retry = 0.1, least_error = 1e-4;
+
 }  // namespace
 
 StepController::StepController(const TimeOptions& options)
@@ -42,25 +45,37 @@ double StepController::propose(double limit) const {
     const bool last = options_.time_counting == TimeCounting::exact && step_ + 1 == step_count_;
     return last ? options_.end_time - time_ : options_.time_step;
   }
-  const double dt = std::min(next_, limit);
-  for (const double stop : stops())
-    if (time_ < stop && time_ + dt > stop * (1.0 - 1e-12)) return stop - time_;
+  return cut_at_stops(std::min(next_, limit));
+}
+
+// By error, the rest before a stop is also shared by two steps, so that the last is not much smaller than the others.
+double StepController::cut_at_stops(double dt) const {
+  for (const double stop : stops()) {
+    if (time_ >= stop) continue;
+    if (time_ + dt > stop * (1.0 - 1e-12)) return stop - time_;
+    if (options_.tolerance > 0.0 && time_ + 2.0 * dt > stop) return 0.5 * (stop - time_);
+    break;
+  }
   return dt;
+}
+
+bool StepController::takes(const StepOutcome& outcome) const {
+  if (!outcome.accepted) return false;
+  return options_.tolerance == 0.0 || outcome.restoring || !outcome.error || *outcome.error <= options_.tolerance;
 }
 
 void StepController::accept(const StepOutcome& outcome) {
   ++step_;
   if (options_.adaptive) {
-    const double reached = time_ + outcome.dt;
+    if (options_.tolerance > 0.0)
+      adapt_to_error(outcome);
+    else
+      adapt_to_failures(outcome);
+    const double driven = driving(), reached = time_ + outcome.dt;
     time_ = reached;
     for (const double stop : stops())  // reached but for the rounding
       if (std::abs(reached - stop) <= 1e-12 * stop) time_ = stop;
-    easy_steps_ = outcome.ncp_iterations <= easy_iterations ? easy_steps_ + 1 : 0;
-    ++since_rejection_;
-    if (easy_steps_ >= easy_steps_to_grow && since_rejection_ > quiet_steps_to_grow) {
-      next_ = std::min(options_.time_step, growth * next_);
-      easy_steps_ = 0;
-    }
+    if (driving() != driven) error_before_ = 0.0;
   } else if (options_.time_counting == TimeCounting::accumulated) {
     time_ += outcome.dt;
   } else {
@@ -68,17 +83,52 @@ void StepController::accept(const StepOutcome& outcome) {
   }
 }
 
+void StepController::adapt_to_failures(const StepOutcome& outcome) {
+  easy_steps_ = outcome.ncp_iterations <= easy_iterations ? easy_steps_ + 1 : 0;
+  ++since_rejection_;
+  if (easy_steps_ >= easy_steps_to_grow && since_rejection_ > quiet_steps_to_grow) {
+    next_ = std::min(options_.time_step, growth * next_);
+    easy_steps_ = 0;
+  }
+}
+
+void StepController::adapt_to_error(const StepOutcome& outcome) {
+  const bool had_rejections = rejected_by_error_ + rejected_by_failure_ > 0;
+  rejected_by_error_ = rejected_by_failure_ = 0;
+  if (outcome.restoring || !outcome.error) {
+    error_before_ = 0.0;
+    return;
+  }
+  const double e = std::max(*outcome.error / options_.tolerance, least_error);
+  double factor = error_before_ > 0.0 ? safety * std::pow(e, -0.7 / 3.0) * std::pow(error_before_, 0.4 / 3.0)
+                                      : safety * std::pow(e, -1.0 / 3.0);
+  factor = std::clamp(factor, least_factor, largest_factor);
+  if (had_rejections) factor = std::min(factor, 1.0);
+  const bool cut = outcome.dt < next_;  // at a stop or by the geometry: that says nothing of the next step
+  next_ = std::min(options_.time_step, cut ? std::max(next_, factor * outcome.dt) : factor * outcome.dt);
+  error_before_ = e;
+}
+
 bool StepController::reject(const StepOutcome& outcome) {
   since_rejection_ = 0;
   easy_steps_ = 0;
-  next_ = 0.5 * outcome.dt;
+  if (outcome.accepted && outcome.error) {
+    const double e = *outcome.error / options_.tolerance;
+    const double factor = rejected_by_error_ == 0 ? std::max(least_retry, safety * std::pow(e, -1.0 / 3.0))
+                                                  : safety * std::pow(e, -1.0 / 2.0);
+    next_ = factor * outcome.dt;
+    ++rejected_by_error_;
+  } else {
+    next_ = 0.5 * outcome.dt;
+    ++rejected_by_failure_;
+  }
   const bool again = options_.adaptive && next_ >= smallest_step();
   rejected_ += again;
   return again;
 }
 
 void StepController::save(StateWriter& writer) const {
-  writer.line("clock", step_, time_, next_, easy_steps_, since_rejection_, rejected_);
+  writer.line("clock", step_, time_, next_, easy_steps_, since_rejection_, rejected_, error_before_);
 }
 
 void StepController::restore(StateReader& reader) {
@@ -89,6 +139,7 @@ void StepController::restore(StateReader& reader) {
   easy_steps_ = reader.integer<int>();
   since_rejection_ = reader.integer<int>();
   rejected_ = reader.integer<long>();
+  error_before_ = reader.number();
 }
 
 }  // namespace stokes

@@ -25,6 +25,14 @@ enum class LcpMatrix {
          // Coupling::local
 };
 
+// How a step is made of configurations and contact problems (integrator.hpp).
+enum class IntegratorKind {
+  euler,     // forward Euler: the paper's
+  ab2,       // second-order Adams-Bashforth: the price of forward Euler
+  rk3,       // third-order Runge-Kutta, three configurations a step; the one whose error can be estimated
+  midpoint,  // implicit midpoint, symmetric in time
+};
+
 struct StepperOptions {
   BackgroundFlow flow;
   // Of the bodies' velocities, in units of the rate and size of what drives them. Nodes, clusters and tolerances are then
@@ -37,6 +45,9 @@ struct StepperOptions {
   NearSingular near_singular = NearSingular::cauchy;
   ContactModel contact = ContactModel::gap;
   double separation = 0.0;  // length
+  double contact_tolerance = stokes::contact_tolerance;  // part of the separation by which active contacts may miss it
+  IntegratorKind integrator = IntegratorKind::euler;
+  double tolerance = 0.0;   // of the local error of a step (error_norm), with rk3; 0: it is not estimated
   Coupling coupling = Coupling::global;
   LcpMatrix lcp_matrix = LcpMatrix::full;
   int stiv_vertices = 0;    // of the polygons of ContactModel::stiv; 0: 4 points_per_body

@@ -93,11 +93,10 @@ class Stepper::State : public StepStart {
   }
 
   std::shared_ptr<Configuration> configuration(const std::vector<Pose>& poses, double elapsed) override {
-    Suspension bodies = bodies_;
-    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
-    const double path = memory_.path + driving_ * elapsed;
-    turn_walls(bodies, driving_ * elapsed, path);
-    return std::make_shared<Configuration>(std::move(bodies), path, driving_, fluid_, memory_);
+    Suspension bodies = at_poses(poses, elapsed);
+    if (const ClosestPair closest = smallest_gap(bodies); closest.gap < 0.0)
+      throw NumericalError(concat(pair_name(closest.a, closest.b), " overlap by ", brief(-closest.gap), " within the step"));
+    return std::make_shared<Configuration>(std::move(bodies), path_after(elapsed), driving_, fluid_, memory_);
   }
 
   ContactSolution solve(Configuration& at, const std::vector<Pose>& base, double length) override {
@@ -106,6 +105,14 @@ class Stepper::State : public StepStart {
 
   std::vector<RigidVelocity> contact_velocity(Configuration& at, const std::vector<ActiveContact>& contacts) override {
     return contacts_.respond(at, contacts).velocity;
+  }
+
+  double path_after(double elapsed) const override { return memory_.path + driving_ * elapsed; }
+  bool continues() const override { return continued_driving_ == driving_; }
+
+  double relative_gap(const std::vector<Pose>& poses) const override {
+    const Suspension bodies = at_poses(poses, 0.0);
+    return smallest_gap(bodies).gap / GapCollector(bodies, fluid_.options.separation).separation();
   }
 
   StepOutcome attempt(double dt, double driving, const NcpOptions& ncp) {
@@ -119,20 +126,23 @@ class Stepper::State : public StepStart {
     outcome.accepted = trial_.failure.empty();
     outcome.dt = dt;
     outcome.driving = driving;
-    outcome.background_iterations = start_->background_iterations();
+    outcome.error = trial_.error;
+    outcome.restoring = restoring_ = starts_too_close();
     outcome.gmres_iterations = fluid_.effort.gmres_iterations;
     outcome.ncp_iterations = fluid_.effort.ncp_iterations;
     outcome.stokes_solves = fluid_.effort.stokes_solves;
     if (!outcome.accepted) return outcome;
+    const Configuration& first = *trial_.stages.front().at;
+    outcome.background_iterations = first.background_iterations();
     for (const Stage& stage : trial_.stages) add_stage(outcome, stage);
     if (trial_.stages[0].at == start_) {
       outcome.at_start = start_;
       outcome.density = trial_.stages[0].solution.density;
     }
     outcome.velocity = trial_.velocity;
-    outcome.unresolved = start_->unresolved();
-    outcome.shortfalls = start_->shortfalls();
-    for (const Discretisation& d : start_->nodes()) {
+    outcome.unresolved = first.unresolved();
+    outcome.shortfalls = first.shortfalls();
+    for (const Discretisation& d : first.nodes()) {
       outcome.nodes += d.size();
       outcome.clusters += static_cast<int>(d.clusters.size());
       outcome.most_nodes = std::max(outcome.most_nodes, d.size());
@@ -145,13 +155,18 @@ class Stepper::State : public StepStart {
     std::vector<const Configuration*> configurations;
     for (const Stage& stage : trial_.stages) configurations.push_back(stage.at.get());
     contacts_.matrix().accept(configurations);
-    memory_.background.append({memory_.path, start_->nodes(), start_->driving() * start_->contact_free().density});
-    memory_.total = {memory_.path, start_->nodes(), trial_.stages.front().solution.density};
+    const Configuration& first = *configurations.front();
+    memory_.background.append({first.path(), first.nodes(), first.driving() * first.contact_free().density});
+    memory_.total = {first.path(), first.nodes(), trial_.stages.front().solution.density};
     memory_.resolution = trial_.stages.back().at->resolution();
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = trial_.poses[i];
     const double way = driving_ * dt_;
     memory_.path += way;
     turn_walls(bodies_, way, memory_.path);
+    if (restoring_)
+      continued_driving_.reset();
+    else
+      continued_driving_ = driving_;
     fluid_.effort = {};
     start_.reset();
     trial_ = {};
@@ -163,6 +178,7 @@ class Stepper::State : public StepStart {
       poses.insert(poses.end(), {body.pose.centre.real(), body.pose.centre.imag(), body.pose.angle});
     writer.line("poses", poses);
     memory_.save(writer);
+    writer.line("continued_driving", continued_driving_.value_or(0.0));
     contacts_.matrix().save(writer);
     integrator_->save(writer);
   }
@@ -173,6 +189,9 @@ class Stepper::State : public StepStart {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       bodies_[i].pose = {{poses[3 * i], poses[3 * i + 1]}, poses[3 * i + 2]};
     memory_ = FluidMemory::restored(reader);
+    reader.begin("continued_driving");
+    continued_driving_.reset();
+    if (const double driving = reader.number(); driving != 0.0) continued_driving_ = driving;
     contacts_.matrix().restore(reader);
     integrator_->restore(reader);
     turn_walls(bodies_, 0.0, memory_.path);
@@ -180,14 +199,34 @@ class Stepper::State : public StepStart {
   }
 
  private:
+  // The bodies at other poses, the walls turned as after this time.
+  Suspension at_poses(const std::vector<Pose>& poses, double elapsed) const {
+    Suspension bodies = bodies_;
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
+    turn_walls(bodies, driving_ * elapsed, path_after(elapsed));
+    return bodies;
+  }
+
+  // Forward Euler does not ask.
+  bool starts_too_close() const {
+    const StepperOptions& options = fluid_.options;
+    if (options.integrator == IntegratorKind::euler || options.contact != ContactModel::gap) return false;
+    const GapCollector collector(bodies_, bodies_, options.separation, options.contact_tolerance);
+    const auto violated = collector.collect(poses_of(bodies_), {});
+    return std::any_of(violated.begin(), violated.end(),
+                       [&](const ContactConstraint& c) { return c.value < -2.0 * collector.tolerance(); });
+  }
+
   Suspension bodies_;
   Fluid fluid_;
   ContactProblem contacts_;
   std::unique_ptr<Integrator> integrator_;
   FluidMemory memory_;
+  std::optional<double> continued_driving_;  // of the step before, if the next one may continue it
 
   // Of the step under way.
   double driving_ = 1.0, dt_ = 0.0;
+  bool restoring_ = false;
   NcpOptions ncp_;
   std::shared_ptr<Configuration> start_;
   Trial trial_;

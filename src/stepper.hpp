@@ -17,6 +17,9 @@ struct StepOutcome {
   bool accepted = false;
   std::string failure;  // empty when accepted
   double dt = 0.0, driving = 1.0;
+  std::optional<double> error;    // estimated local error, with a tolerance (error_norm)
+  int rejected_by_error = 0, rejected_by_failure = 0;  // attempts at this step before it
+  bool restoring = false;         // bodies start closer than the separation: the step moves them apart, whatever its error
   int gmres_iterations = 0, ncp_iterations = 0;
   int background_iterations = 0;  // of GMRES, those of the contact-free solve at the start
   int stokes_solves = 0;          // with any forces

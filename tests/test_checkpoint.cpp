@@ -156,6 +156,11 @@ TEST_CASE("a run goes on from any of its steps to the same bits") {
   check_every_restart({"coupling=local"}, passing_discs, "min_separation_length = .3\n");
   check_every_restart({"contact=stiv"}, passing_discs, "min_separation_length = .3\n");
   check_every_restart({"lcp_matrix=near", "refine=near"}, squeezed, "min_separation_length = .01\n");
+  for (const char* integrator : {"ab2", "rk3", "midpoint"})
+    check_every_restart({concat("integrator=", integrator)}, passing_discs, "min_separation_length = .3\nreverse_at = 1.7\n");
+  check_every_restart({"integrator=ab2", "lcp_matrix=near", "refine=near"}, squeezed, "min_separation_length = .01\n");
+  check_every_restart({"integrator=rk3", "tolerance=1e-4", "time_step=.3", "end_time=5"}, passing_discs,
+                      "min_separation_length = .3\nreverse_at = 1.7\n");
 }
 
 TEST_CASE("what rejected steps leave is kept") {
@@ -166,7 +171,7 @@ TEST_CASE("what rejected steps leave is kept") {
   const Suspension bodies = read_suspension(c);
   // Step 5 at 1/4, the next of 1/48; two easy steps, four since the latest of seven rejections.
   StateWriter writer;
-  writer.line("clock", 5, 0.25, 1.0 / 48.0, 2, 4, 7);
+  writer.line("clock", 5, 0.25, 1.0 / 48.0, 2, 4, 7, 0);
   Stepper(bodies, options_of(c, bodies).stepper).save(writer);
   const CheckpointFile file(c, bodies);
   const double nan = std::nan("");

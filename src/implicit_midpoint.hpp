@@ -1,0 +1,34 @@
+// Implicit midpoint steps with contact, symmetric in time: without contact a flow that is reversed brings the bodies back
+// to where they were, but for the tolerance of the iteration. With X = (x + x') / 2,
+//   x' from the contact problem with the fluid at X, from x, over dt,
+// iterated from X = x + (dt/2) w, w extrapolated from the middles of the latest two steps. The ends keep the separation;
+// X may come closer, by the sagitta of the bodies' sliding past each other, at most by half.
+#pragma once
+
+#include "integrator.hpp"
+
+namespace stokes {
+
+class ImplicitMidpoint : public Integrator {
+ public:
+  explicit ImplicitMidpoint(const StepperOptions& options);
+  Trial attempt(StepStart& start, double dt) override;
+  void accept(const Trial& trial, double dt) override;
+
+  void save(StateWriter& writer) const override;
+  void restore(StateReader& reader) override;
+
+ private:
+  void iterate(StepStart& start, double dt, Trial& trial) const;
+
+  struct Middle {
+    double path, driving;  // of the middle of an accepted step
+    std::vector<RigidVelocity> velocity;
+  };
+  std::vector<RigidVelocity> expected_velocity(StepStart& start, double dt) const;
+
+  double gmres_tolerance_;
+  std::vector<Middle> latest_;  // at most two, of one driving, the newest last
+};
+
+}  // namespace stokes
