@@ -5,6 +5,9 @@ CXXFLAGS ?= -O3
 BUILD    ?= build
 RESULTS  ?= results
 
+# The folder of this file, from wherever it is read.
+HERE := $(dir $(lastword $(MAKEFILE_LIST)))
+
 # gnuplot reads UTF-8, and numbers have a point, wherever this runs.
 export LC_ALL = C.UTF-8
 
@@ -17,10 +20,10 @@ FLAGS     = -std=c++20 $(WARNINGS) $(CXXFLAGS) $(ARCH) $(SANITIZERS) -pthread -D
 LIBS      = -lfftw3 $(LDLIBS)
 
 names        = $(basename $(notdir $(wildcard $(1))))
-PROGRAMS    := simulate bench bench_fmm
+PROGRAMS    := simulate pack bench bench_fmm
 EXPERIMENTS := $(call names,experiments/*.cpp)
 # They read, check and write text.
-TEXT        := bodies case case_keys checkpoint csv output_folder progress recorder run scales text vtk
+TEXT        := bodies case case_keys case_limits checkpoint csv output_folder progress recorder run scales start_from text vtk
 LIBRARY     := $(filter-out $(PROGRAMS) $(TEXT),$(call names,src/*.cpp)) $(TEXT)
 TESTS       := $(filter-out fuzz_input,$(call names,tests/*.cpp))
 BINARIES    := $(addprefix $(BUILD)/,$(PROGRAMS) $(EXPERIMENTS))
@@ -29,6 +32,7 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 .DELETE_ON_ERROR:
 .SUFFIXES:
 .PHONY: help deps deps-figures all objects test reproduce reproduce-all reproduce-quick verify figures movies paper bench \
+        picture movie \
         sanitize sanitize-threads fuzz coverage \
         clean FORCE
 .SECONDARY:
@@ -44,6 +48,9 @@ help:
 	@echo 'make figures          draw the figures of the paper from the results (gnuplot)'
 	@echo 'make paper            the report, with its figures, tables and numbers, from the results (gnuplot, LaTeX)'
 	@echo 'make movies           moving pictures of three suspensions, minutes (gnuplot)'
+	@echo 'make picture RUN=dir  the last state of a run of simulate, dir/picture.png (gnuplot); from another folder:'
+	@echo '                      make -C here picture RUN=dir'
+	@echo 'make movie RUN=dir    the run in motion, dir/movie.gif'
 	@echo 'make deps-figures     install gnuplot and LaTeX where they are missing; nothing else needs them'
 	@echo 'make all              build everything'
 	@echo 'make objects          compile everything, tests too, and link nothing'
@@ -129,7 +136,7 @@ $(BINARIES): $(BUILD)/%: $(SHARED) $(BUILD)/%.o
 -include $(wildcard $(BUILD)/*.d)
 
 # --- tests ----------------------------------------------------------------------------------------------
-test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/verify $(BUILD)/local_coupling $(BUILD)/fig6_injection
+test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/pack $(BUILD)/verify $(BUILD)/local_coupling $(BUILD)/fig6_injection
 	@SIMULATE=$(BUILD)/simulate $(BUILD)/tests $(TESTS_RUN)
 
 FUZZ = count=100000 seed=1
@@ -255,6 +262,19 @@ paper: $(BUILD)/verify $(BUILD)/report $(RESULTS)/bench/bench.csv
 	@$(MAKE) -k --no-print-directory -f paper/Makefile paper
 movies: $(BUILD)/simulate
 	@$(MAKE) -k --no-print-directory -f paper/Makefile movies
+
+# --- pictures of any run ----------------------------------------------------------------------------------
+# A relative folder begins where make was called, also with -C.
+RUN_FOLDER = $(firstword $(wildcard $(RUN)) $(if $(RUN),$(wildcard $(PWD)/$(RUN))))
+picture: DRAWN = kind='png'; output_file='$(RUN_FOLDER)/picture.png'; frames=1
+movie: DRAWN = kind='gif'; output_file='$(RUN_FOLDER)/movie.gif'; frames=300
+picture movie:
+	@[ -n '$(RUN)' ] || { echo 'make $@ RUN=folder: the output folder of a run of simulate' >&2; exit 1; }
+	@[ -f '$(RUN_FOLDER)/trajectory.csv' ] && [ -f '$(RUN_FOLDER)/bodies.csv' ] || \
+	  { echo '$(RUN): there are no trajectory.csv and bodies.csv of a run of simulate' >&2; exit 1; }
+	@command -v gnuplot >/dev/null || { echo 'gnuplot is missing: make deps-figures' >&2; exit 1; }
+	@gnuplot -e "here='$(HERE)paper/figures/'; folder='$(RUN_FOLDER)'; $(DRAWN)" $(HERE)paper/figures/run.gp
+	@echo '$(RUN_FOLDER)/$(if $(filter movie,$@),movie.gif,picture.png)'
 
 # --- timings: nothing of them is compared -----------------------------------------------------------------
 $(RESULTS)/bench/bench.csv: $(BUILD)/bench

@@ -24,7 +24,7 @@ Trial AdamsBashforth::attempt(StepStart& start, double dt) {
       const RigidVelocity then = combined(1.0, before_.free[i], 1.0, before_.by_contact[i]);
       ahead[i] = combined(half_ratio, now, -half_ratio, then);
     }
-    base = advanced(start.bodies(), base, dt, ahead);
+    base = advanced(base, dt, ahead);
   }
   stage.solution = start.solve(*stage.at, base, dt);
   trial.failure = stage.solution.failure;

@@ -12,6 +12,11 @@ struct Annulus {
   SurfaceMotion inner_surface{}, outer_surface{};
 };
 
+// The inner wall of a suspension, or null.
+inline const Body* inner_wall_of(const Suspension& bodies) {
+  return !bodies.empty() && bodies.back().points > 0 ? &bodies.back() : nullptr;
+}
+
 Container outer_wall(const Annulus& annulus);
 Body inner_wall(const Annulus& annulus);
 

@@ -37,7 +37,10 @@ constexpr Column columns[] = {
     {"force_x", false, "external force; the sum over the bodies is 0 in unbounded flow"},
     {"force_y", false, "external force"},
     {"torque", false, "external torque about the centre"},
-    {"fixed", false, "1: held in place, in an annulus only"},
+    {"fixed", false, "1: held in place or driven, between walls only"},
+    {"ux", false, "velocity of a fixed body, length/time; reversed with all driving"},
+    {"uy", false, "velocity of a fixed body"},
+    {"omega", false, "angular velocity of a fixed body, 1/time"},
 };
 
 // Names what looks like a table of another kind, by its first line that is no comment.
@@ -99,11 +102,16 @@ Body read_body(const Table& table, int row) {
     refuse(table.where(row), "fixed = ", fixed, " of body ", row,
          " must be 0 (free) or 1 (held in place).");
   }
+  for (const char* name : {"ux", "uy", "omega"})
+    if (fixed == 0.0 && value(name) != 0.0)
+      refuse(table.where(row), name, " = ", value(name), " of body ", row, " is given, but a free body finds its own ",
+             "velocity; set fixed to 1 to drive it, or ", name, " to 0.");
   return {Shape{value("a"), value("b")},
           Pose{{value("x"), value("y")}, value("theta")},
           {value("force_x"), value("force_y")},
           value("torque"),
-          fixed == 1.0};
+          fixed == 1.0,
+          {value("omega"), 0.0, {value("ux"), value("uy")}}};
 }
 
 Suspension read_table(const Table& table) {
@@ -183,14 +191,15 @@ void check_overlaps(const Table& table, const Suspension& bodies) {
   if (closest.gap <= 0.0) refuse_pair(table, closest, ", the smallest gap of all");
 }
 
-void check_walls(const Table& table, const Suspension& bodies, const Annulus& annulus) {
-  const Container outer = outer_wall(annulus);
-  const Body inner = inner_wall(annulus);
+void check_walls(const Table& table, const Suspension& bodies, const Suspension& walls) {
+  const Container& outer = *walls.container;
+  const Body* const inner = inner_wall_of(walls);
   double smallest = std::numeric_limits<double>::infinity();
   int worst = 0;
   bool is_outer = false;
   for (int i = 0; i < static_cast<int>(bodies.size()); ++i) {
-    const double outer_gap = gap(bodies[i], outer).value, inner_gap = gap(bodies[i], inner).value;
+    const double outer_gap = gap(bodies[i], outer).value;
+    const double inner_gap = inner ? gap(bodies[i], *inner).value : std::numeric_limits<double>::infinity();
     if (std::min(outer_gap, inner_gap) >= smallest) continue;
     smallest = std::min(outer_gap, inner_gap);
     worst = i;
@@ -198,7 +207,7 @@ void check_walls(const Table& table, const Suspension& bodies, const Annulus& an
   }
   if (smallest > 0.0) return;
   const std::string wall = is_outer ? concat("the outer wall of radius ", outer.radius)
-                                    : concat("the inner wall of radius ", annulus.inner_radius);
+                                    : concat("the inner wall of radius ", inner->shape.a);
   const std::string depth = smallest == 0.0 ? concat("touches ", wall)
                             : is_outer      ? concat("reaches ", brief(-smallest), " beyond ", wall)
                                             : concat("overlaps ", wall, " by ", brief(-smallest));
@@ -222,22 +231,29 @@ Suspension parse_bodies(std::string_view content, const std::string& file_name) 
   return bodies;
 }
 
-Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus) {
+Suspension parse_bodies(std::string_view content, const std::string& file_name, const Suspension& walls) {
   check_form(content, file_name);
   const Table table = parse_csv(content, file_name);
   Suspension bodies = read_table(table);
-  check_walls(table, bodies, annulus);
+  check_walls(table, bodies, walls);
   check_overlaps(table, bodies);
+  bodies.insert(bodies.end(), walls.begin(), walls.end());
+  bodies.container = walls.container;
   return bodies;
 }
 
 std::string format_bodies(const Suspension& bodies) {
-  std::string text = "a,b,x,y,theta,force_x,force_y,torque,fixed\n";
+  const bool some_driven = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.is_driven(); });
+  std::string text = concat("a,b,x,y,theta,force_x,force_y,torque,fixed", some_driven ? ",ux,uy,omega\n" : "\n");
   for (const Body& body : bodies) {
     if (body.points != 0) continue;  // a wall
     text += concat(body.shape.a, ",", body.shape.b, ",", body.pose.centre.real(), ",", body.pose.centre.imag(), ",",
                    body.pose.angle, ",", body.force.real(), ",", body.force.imag(), ",", body.torque, ",",
-                   body.fixed ? 1 : 0, "\n");
+                   body.fixed ? 1 : 0);
+    const SurfaceMotion& given = body.surface;
+    if (some_driven)
+      text += concat(",", given.translation.real(), ",", given.translation.imag(), ",", given.angular_velocity);
+    text += '\n';
   }
   return text;
 }

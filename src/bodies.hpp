@@ -1,4 +1,5 @@
-// The CSV of a suspension's bodies: the columns a,b,x,y,theta in any order, optional force_x,force_y,torque,fixed.
+// The CSV of a suspension's bodies: the columns a,b,x,y,theta in any order, optional force_x,force_y,torque,fixed and, of
+// fixed bodies, ux,uy,omega.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +16,13 @@ Suspension read_bodies(const std::filesystem::path& path);
 // The same for the content of such a file; the name is for messages.
 Suspension parse_bodies(std::string_view content, const std::string& file_name);
 
-// The same for the bodies in an annulus, without its walls. Bodies may be fixed, forces may have any sum (a force
-// on a fixed body does nothing), and no body may overlap or touch another body or a wall.
-Suspension parse_bodies(std::string_view content, const std::string& file_name, const Annulus& annulus);
+// The same for bodies between walls: `walls` has a container and at most an inner wall, which are added to the bodies.
+// Bodies may be fixed, forces may have any sum (a force on a fixed body does nothing), and no body may overlap or touch
+// another body or a wall.
+Suspension parse_bodies(std::string_view content, const std::string& file_name, const Suspension& walls);
 
-// The content of a file, with every column, from which the same bodies are read. Walls have no row.
+// The content of a file from which the same bodies are read: every column, and ux,uy,omega if a body is driven. Walls have
+// no row.
 std::string format_bodies(const Suspension& bodies);
 
 // Help for users: the columns of the file.

@@ -13,11 +13,13 @@
 #include "bodies.hpp"
 #include "csv.hpp"
 #include "simulation.hpp"
+#include "start_from.hpp"
 
 namespace stokes {
 
 enum class Geometry {
   unbounded,
+  disc,     // one circular wall around the fluid, centred at 0
   annulus,  // two concentric circular walls, centred at 0
 };
 
@@ -25,28 +27,35 @@ struct Case {
   std::filesystem::path file;  // the case file; not a key
   std::string command;         // the command that runs the case, for its record; not a key
   std::vector<std::string> warnings;  // about the values given; not a key
+  std::optional<EarlierState> earlier;  // the state that start_from names, once it is read; not a key
 
   // Required.
-  std::string bodies;             // CSV of the bodies, as written: see bodies_path()
-  FlowKind flow = FlowKind::none;  // in an annulus not required, and none
+  std::string bodies;             // CSV of the bodies, as written: see bodies_path(); not with start_from
+  FlowKind flow = FlowKind::none;  // between walls not required, and none
   int points_per_body = 0;        // even, at least 8; 0: none, with an accuracy
   double time_step = 0.0;         // time
   double end_time = 0.0;          // time
   std::string output;             // folder, relative to the working directory
 
-  // Required in an annulus, and only possible there.
+  // Required in an annulus, the outer radius also in a disc, and only possible there.
   double inner_radius = 0.0;  // length
   double outer_radius = 0.0;  // length
 
-  // With defaults, only possible in an annulus.
+  // With defaults, only possible in an annulus, those of the outer wall also in a disc.
   int wall_points = 256;                // even, at least 16
   double outer_angular_velocity = 0.0;  // 1 / time
   double inner_angular_velocity = 0.0;  // 1 / time
   double injection_rate = 0.0;          // area / time, outwards through both walls
 
+  // Of unbounded fluid.
+  double rate = 1.0;                  // 1 / time, in Poiseuille flow 1 / (length time); may be negative
+  std::vector<double> gradient;       // of flow = linear, required there: du/dx, du/dy, dv/dx, dv/dy
+  std::optional<double> sample_area;  // area, over which stresses are averaged
+
   // With defaults.
   Geometry geometry = Geometry::unbounded;
-  double rate = 1.0;                            // 1 / time; may be negative
+  double start_time = 0.0;                      // time
+  std::string start_from;                       // folder of an earlier run and, behind a space, a time; empty: none
   std::optional<double> reverse_at;             // time; the flow and the walls' velocities change sign once
   double min_separation = 0.0;                  // in units of h = longest perimeter / points_per_body
   std::optional<double> min_separation_length;  // length; instead of min_separation
@@ -72,6 +81,8 @@ struct Case {
   std::optional<int> threads;                   // all cores if not given
   TimeCounting time_counting = TimeCounting::exact;
 
+  BackgroundFlow background() const;
+
   // The bodies' file; a relative name starts from the case file's folder.
   std::filesystem::path bodies_path() const { return file.parent_path() / bodies; }
 };
@@ -83,7 +94,7 @@ Case read_case(const std::filesystem::path& file, const std::vector<std::string>
 Case parse_case(std::string_view content, const std::filesystem::path& file,
                 const std::vector<std::string>& overrides = {});
 
-// The bodies of a case's file and, in an annulus, its walls (annulus.hpp). InputError as read_bodies().
+// The bodies of a case's file and its walls (annulus.hpp). InputError as read_bodies().
 Suspension read_suspension(const Case& parameters);
 // The same for the content of the bodies' file.
 Suspension parse_suspension(const Case& parameters, std::string_view content);

@@ -14,11 +14,13 @@ template <class Value>
 using Words = std::vector<std::pair<std::string, Value>>;
 
 Words<Geometry> words_of(Geometry) {
-  return {{"unbounded", Geometry::unbounded}, {"annulus", Geometry::annulus}};
+  return {{"unbounded", Geometry::unbounded}, {"disc", Geometry::disc}, {"annulus", Geometry::annulus}};
 }
 Words<FlowKind> words_of(FlowKind) {
   return {{"shear", FlowKind::shear},
           {"extension", FlowKind::extension},
+          {"linear", FlowKind::linear},
+          {"poiseuille", FlowKind::poiseuille},
           {"taylor_green", FlowKind::taylor_green},
           {"none", FlowKind::none}};
 }
@@ -96,7 +98,7 @@ Value parse_value(const std::string& key, const GivenValue& given) {
 template <class Value>
 std::string text_of(const Value& value) {
   if constexpr (std::is_same_v<Value, std::string>) {
-    return value;
+    return value.empty() ? "none" : value;
   } else if constexpr (std::is_same_v<Value, std::vector<double>>) {
     std::vector<std::string> texts;
     for (const double number : value) texts.push_back(format_number(number));
@@ -146,13 +148,27 @@ CaseKey where(Condition condition, CaseKey key) {
 CaseKey in_annulus(CaseKey key) {
   key.help = "in an annulus: " + key.help;
   return where({"geometry", [](const Case& c) { return c.geometry == Geometry::annulus; },
-                "belongs to an annulus, but the geometry is unbounded; write geometry = annulus or leave it out."},
+                "belongs to an annulus; write geometry = annulus or leave it out."},
+               std::move(key));
+}
+
+CaseKey between_walls(CaseKey key) {
+  key.help = "in an annulus or disc: " + key.help;
+  return where({"geometry", [](const Case& c) { return c.geometry != Geometry::unbounded; },
+                "belongs to an annulus or disc, but the geometry is unbounded; write geometry = annulus or disc, or leave it "
+                "out."},
                std::move(key));
 }
 
 CaseKey in_unbounded(CaseKey key) {
   return where({"geometry", [](const Case& c) { return c.geometry == Geometry::unbounded; },
-                "belongs to a flow of unbounded fluid, but in an annulus the walls drive the fluid; leave it out."},
+                "belongs to a flow of unbounded fluid, but in an annulus or disc the walls drive the fluid; leave it out."},
+               std::move(key));
+}
+
+CaseKey without_earlier(CaseKey key) {
+  return where({"start_from", [](const Case& c) { return c.start_from.empty(); },
+                "does nothing with start_from; leave it out."},
                std::move(key));
 }
 
@@ -192,12 +208,12 @@ std::string hint_for(std::string_view word) {
       {"radius", "bodies have the columns a and b, walls have inner_radius and outer_radius; "},
       {"omega", "walls have inner_angular_velocity and outer_angular_velocity; "},
       {"viscosity", "the viscosity is 1, which sets the unit of force; "},
-      {"seed", "nothing is random; "},
+      {"seed", "nothing is random here, build/pack makes random starts; "},
       {"period", "there are no periodic domains; "},
       {"periodic", "there are no periodic domains; "},
       {"box", "there are no boxes; "},
-      {"channel", "there are no channels; walls are those of geometry = annulus; "},
-      {"poiseuille", "there is no such flow; "},
+      {"channel", "there are no channels: flow = poiseuille is that between walls far away, and walls are circles; "},
+      {"restart", "an interrupted run goes on with the same command, another one from start_from = FOLDER; "},
       {"couette", "the flow between cylinders is geometry = annulus with walls that turn; "},
   };
   for (const auto& [known, hint] : hints)
@@ -207,23 +223,37 @@ std::string hint_for(std::string_view word) {
 
 const std::vector<CaseKey>& case_keys() {
   static const std::vector<CaseKey> table = {
-      required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file"),
+      without_earlier(required("bodies", &Case::bodies, "CSV of the bodies, its path relative to the case file")),
+      optional("start_from", &Case::start_from,
+               "instead of bodies: FOLDER or FOLDER TIME, the last state of the run there, or that of a time in its "
+               "trajectory.csv; the time goes on from there"),
       required("flow", &Case::flow,
-               "background: shear (rate y, 0), extension rate (x, -y), taylor_green rate (cos x sin y, -sin x cos y); "
-               "none in an annulus",
+               "background: shear (rate y, 0), extension rate (x, -y), linear rate (a x + b y, c x + d y), "
+               "poiseuille (rate y^2, 0), taylor_green rate (cos x sin y, -sin x cos y); none in an annulus or disc",
                Needed::unbounded),
       required("time_step", &Case::time_step, "length of a step, time"),
       required("end_time", &Case::end_time, "when to stop, time"),
       required("output", &Case::output, "folder of the results, relative to the working directory"),
-      optional("geometry", &Case::geometry, "of the fluid; an annulus is centred at 0"),
+      without_earlier(optional("start_time", &Case::start_time, "time at the beginning")),
+      optional("geometry", &Case::geometry, "of the fluid; annulus and disc are centred at 0"),
       in_annulus(required("inner_radius", &Case::inner_radius, "of the inner wall, length", Needed::annulus)),
-      in_annulus(required("outer_radius", &Case::outer_radius, "of the outer wall, length", Needed::annulus)),
-      in_annulus(optional("wall_points", &Case::wall_points, "nodes on each wall, even, at least 16")),
-      in_annulus(optional("outer_angular_velocity", &Case::outer_angular_velocity, "of the outer wall, 1/time")),
+      between_walls(required("outer_radius", &Case::outer_radius, "of the outer wall, length", Needed::walls)),
+      between_walls(optional("wall_points", &Case::wall_points, "nodes on each wall, even, at least 16")),
+      between_walls(optional("outer_angular_velocity", &Case::outer_angular_velocity, "of the outer wall, 1/time")),
       in_annulus(optional("inner_angular_velocity", &Case::inner_angular_velocity, "of the inner wall, 1/time")),
       in_annulus(optional("injection_rate", &Case::injection_rate, "through both walls, outwards, area/time")),
       where({"flow", [](const Case& c) { return c.flow != FlowKind::none; }, "does nothing with flow = none; leave it out."},
-            in_unbounded(optional("rate", &Case::rate, "of the flow, 1/time; may be negative"))),
+            in_unbounded(optional("rate", &Case::rate,
+                                  "of the flow, 1/time, of poiseuille 1/(length time); may be negative"))),
+      where({"flow", [](const Case& c) { return c.flow == FlowKind::linear; },
+             "does nothing without flow = linear; leave it out."},
+            in_unbounded(optional("gradient", &Case::gradient,
+                                  "of flow = linear: a b c d, that is du/dx du/dy dv/dx dv/dy, with a + d = 0"))),
+      where({"flow", [](const Case& c) { return c.background().has_uniform_gradient(); },
+             "needs a flow of uniform gradient: shear, extension or linear; leave it out."},
+            in_unbounded(optional("sample_area", &Case::sample_area, "none",
+                                  "area that the bodies stand for, such as that of their box: makes bulk_stress_11, "
+                                  "bulk_stress_12 and effective_viscosity of steps.csv"))),
       optional("accuracy", &Case::accuracy, "none",
                "of the bodies' velocities, in units of the rate and size of what drives them: chooses the nodes of bodies and "
                "walls and the tolerance of the solver at every step; 1e-4 without points_per_body"),

@@ -19,7 +19,7 @@ struct GivenValue {
 using GivenKeys = std::map<std::string, GivenValue>;
 
 // The geometries in which a key is required.
-enum class Needed { always, unbounded, annulus, never };
+enum class Needed { always, unbounded, annulus, walls, never };
 
 // A condition without which a key has no effect.
 struct Condition {
@@ -38,7 +38,14 @@ struct CaseKey {
   std::function<std::string(const Case&)> get;
 
   bool is_needed(Geometry geometry) const {
-    return needed == Needed::always || needed == (geometry == Geometry::annulus ? Needed::annulus : Needed::unbounded);
+    switch (needed) {
+      case Needed::always: return true;
+      case Needed::unbounded: return geometry == Geometry::unbounded;
+      case Needed::annulus: return geometry == Geometry::annulus;
+      case Needed::walls: return geometry != Geometry::unbounded;
+      case Needed::never: break;
+    }
+    return false;
   }
   // The first condition that does not hold, or none.
   const Condition* idle_for(const Case& c) const {
@@ -50,6 +57,13 @@ struct CaseKey {
 
 // Every key, in the order of --help.
 const std::vector<CaseKey>& case_keys();
+
+// Checks the values and their combinations. InputError where a limit does not hold; a value in the file that an argument
+// leaves without effect becomes a warning of the case.
+void check_case(Case& c, const GivenKeys& given);
+
+// Of a tolerance of steps, the most that solutions may be off.
+inline constexpr double solver_part = 0.1;
 
 template <class... Parts>
 [[noreturn]] void fail(const std::string& where, const Parts&... parts) {

@@ -21,6 +21,9 @@ std::vector<std::string> description_of(const Case& c, const Suspension& initial
                            body.pose.angle, body.force.real(), body.force.imag(), body.torque})
       numbers.push_back(format_number(x));
     lines.push_back(concat("body ", i, ": ", join(numbers, " "), body.fixed ? " fixed" : ""));
+    if (body.is_driven())
+      lines.back() += concat(" ", body.surface.translation.real(), " ", body.surface.translation.imag(), " ",
+                             body.surface.angular_velocity);
   }
   return lines;
 }

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "cauchy.hpp"
-#include "pack.hpp"
+#include "simd.hpp"
 
 namespace stokes {
 

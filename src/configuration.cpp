@@ -37,7 +37,7 @@ Configuration::Configuration(Suspension bodies, double path, double driving, Flu
 
 StokesSolution Configuration::solve_contact_free(const FluidMemory& memory) {
   const StepperOptions& options = fluid_.options;
-  const BackgroundFlow flow{options.flow.kind, driving_ * options.flow.rate, driving_};
+  const BackgroundFlow flow = options.flow.driven(driving_);
   std::vector<Wrench> external;
   for (const Body& body : bodies_) external.push_back({body.force, body.torque});
   const auto guess = [&](const std::vector<Discretisation>& nodes) {

@@ -15,7 +15,7 @@ namespace stokes {
 
 // Velocities with the density that belongs to them.
 struct Response {
-  std::vector<RigidVelocity> velocity;  // of a fixed body 0
+  std::vector<RigidVelocity> velocity;  // of a fixed body that of its surface, 0 in the answer to a contact
   ComplexVector density;
 };
 

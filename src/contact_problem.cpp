@@ -19,7 +19,7 @@ std::vector<RigidVelocity> shift_of(const Suspension& start, const std::vector<P
   std::vector<RigidVelocity> shift(start.size());
   bool ahead = false;
   for (std::size_t i = 0; i < start.size(); ++i) {
-    if (start[i].fixed || base[i] == start[i].pose) continue;
+    if (base[i] == start[i].pose) continue;
     ahead = true;
     shift[i] = {(base[i].centre - start[i].pose.centre) / length, (base[i].angle - start[i].pose.angle) / length};
   }

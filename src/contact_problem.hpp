@@ -18,7 +18,7 @@ struct ContactSolution {
   bool solved = false;
   std::string failure;                  // empty when solved
   std::vector<Pose> poses;              // y
-  std::vector<RigidVelocity> velocity;  // w; of a fixed body 0
+  std::vector<RigidVelocity> velocity;  // w; of a fixed body that of its surface
   ComplexVector density;                // that belongs to it
   std::vector<ActiveContact> contacts;  // with a positive multiplier
   std::vector<Wrench> wrenches;         // contact force and torque on each body, fixed or not

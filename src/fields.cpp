@@ -34,10 +34,6 @@ bool in_fluid(const Suspension& bodies, Complex x) {
   });
 }
 
-BackgroundFlow driven(const StepperOptions& options, double driving) {
-  return {options.flow.kind, driving * options.flow.rate, driving};
-}
-
 // Of each body on the fluid: of a free one the given and the contact force, of a fixed one its reaction.
 std::vector<Wrench> wrenches_on_fluid(const Suspension& bodies, const std::vector<Wrench>& contact,
                                       const std::vector<Wrench>& reaction) {
@@ -74,7 +70,7 @@ GridFlow flow_on_grid(const Suspension& bodies, const StepperOptions& options, d
                       const std::vector<Wrench>& contact, const Square& square, int points) {
   const std::vector<Wrench> given = wrenches_on_fluid(bodies, contact, {});
   ShapeCache shapes(options.near_singular);
-  const BackgroundFlow flow = driven(options, driving);
+  const BackgroundFlow flow = options.flow.driven(driving);
   ResolvedSystem resolved;
   if (options.accuracy > 0.0) {
     ShapeResolution alone;
@@ -93,7 +89,7 @@ GridFlow flow_on_grid(const StepRecord& record, const StepperOptions& options, c
   const StepOutcome& step = *record.outcome;
   if (!step.at_start)
     return flow_on_grid(record.bodies, options, record.driving, step.contact_wrench, square, points);
-  return on_grid(record.bodies, step.at_start->system(), step.density, driven(options, record.driving),
+  return on_grid(record.bodies, step.at_start->system(), step.density, options.flow.driven(record.driving),
                  wrenches_on_fluid(record.bodies, step.contact_wrench, step.reaction), square, points);
 }
 

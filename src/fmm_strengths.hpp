@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "direct_fields.hpp"
-#include "pack.hpp"
+#include "simd.hpp"
 #include "pair_kernels.hpp"
 #include "quadtree.hpp"
 

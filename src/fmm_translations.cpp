@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pack.hpp"
+#include "simd.hpp"
 #include "threads.hpp"
 
 namespace stokes {

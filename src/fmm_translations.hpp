@@ -24,7 +24,7 @@
 
 #include "base.hpp"
 #include "interaction_lists.hpp"
-#include "pack.hpp"
+#include "simd.hpp"
 
 namespace stokes {
 

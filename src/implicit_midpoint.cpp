@@ -51,7 +51,7 @@ Trial ImplicitMidpoint::attempt(StepStart& start, double dt) {
 void ImplicitMidpoint::iterate(StepStart& start, double dt, Trial& trial) const {
   const Suspension& bodies = start.bodies();
   const std::vector<Pose> first = poses_of(bodies);
-  std::vector<Pose> middle = advanced(bodies, first, 0.5 * dt, expected_velocity(start, dt));
+  std::vector<Pose> middle = advanced(first, 0.5 * dt, expected_velocity(start, dt));
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (const double gap = start.relative_gap(middle); gap < least_gap) {

@@ -41,11 +41,9 @@ std::vector<Pose> poses_of(const Suspension& bodies) {
   return poses;
 }
 
-std::vector<Pose> advanced(const Suspension& bodies, const std::vector<Pose>& poses, double dt,
-                           const std::vector<RigidVelocity>& velocity) {
+std::vector<Pose> advanced(const std::vector<Pose>& poses, double dt, const std::vector<RigidVelocity>& velocity) {
   std::vector<Pose> result = poses;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (!bodies[i].fixed) result[i] = advance(poses[i], velocity[i], dt);
+  for (std::size_t i = 0; i < poses.size(); ++i) result[i] = advance(poses[i], velocity[i], dt);
   return result;
 }
 

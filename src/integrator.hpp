@@ -76,9 +76,8 @@ std::vector<RigidVelocity> velocities_of(const std::vector<double>& numbers);
 std::vector<RigidVelocity> mean_velocity(const std::vector<Stage>& stages);
 
 std::vector<Pose> poses_of(const Suspension& bodies);
-// poses + dt velocity for mobile bodies; fixed ones stay.
-std::vector<Pose> advanced(const Suspension& bodies, const std::vector<Pose>& poses, double dt,
-                           const std::vector<RigidVelocity>& velocity);
+// poses + dt velocity.
+std::vector<Pose> advanced(const std::vector<Pose>& poses, double dt, const std::vector<RigidVelocity>& velocity);
 
 // max_i sqrt(|dc_i|^2 / a_i^2 + dtheta_i^2) of the difference of two sets of poses, a_i the largest semi-axis; mobile
 // bodies only.

@@ -348,8 +348,11 @@ class Iteration {
         if (c.multiplier > 0.0) add_motion(c.column, c.multiplier);
     }
     poses_.clear();
-    for (std::size_t i = 0; i < start_.size(); ++i)
-      poses_.push_back(start_[i].fixed ? start_[i].pose : advance(start_[i].pose, motion_.velocity[i], dt_));
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      const RigidVelocity& u = motion_.velocity[i];
+      const bool rests = start_[i].fixed && u.velocity == 0.0 && u.omega == 0.0;
+      poses_.push_back(rests ? start_[i].pose : advance(start_[i].pose, u, dt_));
+    }
   }
 
   const Suspension& start_;

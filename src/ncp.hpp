@@ -8,7 +8,7 @@
 // constraints, and then for all multipliers and what they do, the smallest symmetric change is made after which
 // M' s = y. What it has learnt goes from step to step.
 //
-// Fixed bodies have no mobility: they stay where they are, and the forces on them and on the container do
+// Fixed bodies have no mobility: they move as contact_free says, and the forces on them and on the container do
 // nothing to the fluid. They are reactions, only reported. Between obstacles a body may be jammed: then no forces
 // solve the problem, which is a failure like others.
 #pragma once

@@ -169,8 +169,12 @@ std::vector<std::pair<int, int>> neighbour_pairs(const std::vector<Complex>& sta
   return pairs;
 }
 
-std::vector<std::pair<int, int>> contact_candidates(const Suspension& start, const std::vector<Pose>& trial,
-                                                    double distance) {
+namespace {
+
+// Pairs of bodies, and of a body and the container, without those of bodies that are all `left_out`.
+template <class LeftOut>
+std::vector<std::pair<int, int>> candidates(const Suspension& start, const std::vector<Pose>& trial, double distance,
+                                            const LeftOut& left_out) {
   std::vector<Complex> from, to;
   std::vector<double> radius;
   for (const Body& body : start) {
@@ -179,17 +183,18 @@ std::vector<std::pair<int, int>> contact_candidates(const Suspension& start, con
   }
   for (const Pose& pose : trial) to.push_back(pose.centre);
   std::vector<std::pair<int, int>> pairs = neighbour_pairs(from, to, radius, distance);
-  std::erase_if(pairs, [&](const auto& pair) { return start[pair.first].fixed && start[pair.second].fixed; });
+  std::erase_if(pairs, [&](const auto& pair) { return left_out(start[pair.first]) && left_out(start[pair.second]); });
   if (!start.container) return pairs;
   const Container& container = *start.container;
   for (int i = 0; i < static_cast<int>(start.size()); ++i)
-    if (!start[i].fixed && container.radius - std::abs(to[i] - container.centre) - radius[i] <= distance)
+    if (!left_out(start[i]) && container.radius - std::abs(to[i] - container.centre) - radius[i] <= distance)
       pairs.emplace_back(i, container_index);
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 
-namespace {
+bool is_fixed(const Body& body) { return body.fixed; }
+bool is_at_rest(const Body& body) { return body.fixed && !body.is_driven(); }
 
 // The gap of the circumscribed circles of a pair.
 double between_circles(const Suspension& suspension, int a, int b) {
@@ -202,22 +207,27 @@ double between_circles(const Suspension& suspension, int a, int b) {
 
 }  // namespace
 
+std::vector<std::pair<int, int>> contact_candidates(const Suspension& start, const std::vector<Pose>& trial,
+                                                    double distance) {
+  return candidates(start, trial, distance, is_fixed);
+}
+
 ClosestPair smallest_gap(const Suspension& suspension) {
   ClosestPair closest;
   std::vector<Pose> poses;
   double scale = 0.0;
   for (const Body& body : suspension) {
     poses.push_back(body.pose);
-    if (!body.fixed) scale = std::max(scale, body.shape.circumradius());
+    if (!is_at_rest(body)) scale = std::max(scale, body.shape.circumradius());
   }
-  // Without a mobile body, or with nothing else, there is no pair, however far one looks.
+  // Without a body that moves, or with nothing else, there is no pair, however far one looks.
   if (scale == 0.0 || (suspension.size() < 2 && !suspension.container)) return closest;
 
   // No gap is below that of the circumscribed circles. So the pairs whose circles are within `distance`
   // hold the smallest gap as soon as one of theirs is at most `distance`.
   double distance = 0.0;
   for (;;) {
-    for (const auto& [i, j] : contact_candidates(suspension, poses, distance)) {
+    for (const auto& [i, j] : candidates(suspension, poses, distance, is_at_rest)) {
       const Body& body = suspension[i];
       if (between_circles(suspension, i, j) > closest.gap) continue;
       const double value = j == container_index ? gap(body, *suspension.container).value

@@ -101,6 +101,7 @@ std::vector<fs::path> RunRecord::results() const {
   static const std::regex field("fields_[-+.0-9e]+\\.csv(\\.tmp)?"), picture("step_[0-9]{6,}\\.vtk(\\.tmp)?");
   std::vector<fs::path> files;
   add_matching(folder_, field, files);
+  if (std::error_code none; fs::exists(folder_ / "run.vtk.series", none)) files.push_back(folder_ / "run.vtk.series");
   add_matching(folder_ / "vtk", picture, files);
   return files;
 }

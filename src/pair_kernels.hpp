@@ -11,7 +11,7 @@
 // Distances must lie between 1e-37 and 1e37: products of their powers are formed.
 #pragma once
 
-#include "pack.hpp"
+#include "simd.hpp"
 
 namespace stokes {
 

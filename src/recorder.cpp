@@ -6,8 +6,6 @@
 #include <fstream>
 #include <span>
 
-#include "rheology.hpp"
-
 namespace stokes {
 
 namespace {
@@ -31,6 +29,8 @@ constexpr Column trajectory_table[] = {
     {"fx", "sum of the contact forces on the body"},
     {"fy", "sum of the contact forces on the body"},
     {"torque", "of these forces about the centre"},
+    {"stresslet_11", "of the body about its centre, the part without trace: S_11 = -S_22"},
+    {"stresslet_12", "the same: S_12 = S_21"},
 };
 constexpr Column steps_table[] = {
     {"step", "number of the step, from 0"},
@@ -53,6 +53,18 @@ constexpr Column steps_table[] = {
     {"rejected_by_error", "attempts at the step whose error was above the tolerance"},
     {"rejected_by_failure", "attempts at the step that failed"},
 };
+constexpr Column unbounded_table[] = {
+    {"stresslet_sum_11", "sum of the bodies' stresslets"},
+    {"stresslet_sum_12", "sum of the bodies' stresslets"},
+    {"contact_sum_11", "sum of F d over contacts, symmetric without trace: F on one body, d from its centre to the other"},
+    {"contact_sum_12", "the same: 12"},
+    {"bulk_stress_11", "stress without trace: twice the flow's rate of strain, and the sums above over sample_area"},
+    {"bulk_stress_12", "the same: 12"},
+    {"effective_viscosity", "bulk stress along the rate of strain over twice the rate of strain; with sample_area"},
+};
+constexpr Column disc_table[] = {
+    {"outer_torque", "of the wall on the fluid about its centre"},
+};
 constexpr Column walls_table[] = {
     {"inner_torque", "of the inner wall on the fluid about its centre"},
     {"outer_torque", "of the outer wall on the fluid about its centre"},
@@ -72,10 +84,18 @@ std::vector<std::string> names_of(std::span<const Column> columns) {
 
 const std::vector<std::string> trajectory_columns = names_of(trajectory_table);
 
+std::span<const Column> columns_of(StepsColumns columns) {
+  switch (columns) {
+    case StepsColumns::unbounded: return unbounded_table;
+    case StepsColumns::in_disc: return disc_table;
+    case StepsColumns::between_walls: return walls_table;
+  }
+  return {};
+}
+
 std::vector<std::string> steps_columns(StepsColumns columns) {
   std::vector<std::string> names = names_of(steps_table);
-  if (columns == StepsColumns::between_walls)
-    for (const std::string& name : names_of(walls_table)) names.push_back(name);
+  for (const Column& column : columns_of(columns)) names.push_back(column.name);
   return names;
 }
 
@@ -145,9 +165,10 @@ const std::filesystem::path& made_folder(const std::filesystem::path& folder) {
   return folder;
 }
 
-Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns)
+Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Sample& sample)
     : output_every_(output_every),
       columns_(columns),
+      sample_(sample),
       trajectory_(made_folder(folder) / trajectory_name, trajectory_columns),
       steps_(folder / steps_name, steps_columns(columns)) {
   trajectory_.flush();
@@ -155,10 +176,11 @@ Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsC
   position_ = {trajectory_.bytes(), steps_.bytes(), {}};
 }
 
-Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns,
+Recorder::Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Sample& sample,
                    const Position& position)
     : output_every_(output_every),
       columns_(columns),
+      sample_(sample),
       trajectory_(CsvWriter::continued(folder / trajectory_name, trajectory_columns.size(),
                                        position.trajectory_bytes)),
       steps_(CsvWriter::continued(folder / steps_name, steps_columns(columns).size(), position.steps_bytes)),
@@ -184,24 +206,9 @@ void Recorder::record(const StepRecord& record) {
 }
 
 void Recorder::write(const StepRecord& record) {
-  const double nan = std::nan(""), step = static_cast<double>(record.step);
+  const double nan = std::nan("");
   const StepOutcome* outcome = record.outcome;
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < record.bodies.size(); ++i) {
-    if (record.bodies[i].points > 0) continue;  // a wall
-    const Pose& pose = record.bodies[i].pose;
-    Row row = {step, record.time, static_cast<double>(i), pose.centre.real(), pose.centre.imag(), pose.angle};
-    if (outcome) {
-      const RigidVelocity& u = outcome->velocity[i];
-      const Wrench& f = outcome->contact_wrench[i];
-      for (double value : {u.velocity.real(), u.velocity.imag(), u.omega, f.force.real(), f.force.imag(), f.torque})
-        row.push_back(value);
-    } else {
-      row.resize(12, nan);
-    }
-    rows.push_back(std::move(row));
-  }
-  Row summary = {step, record.time};
+  Row summary = {static_cast<double>(record.step), record.time};
   if (outcome) {
     double smallest = nan, largest = nan;
     for (const ActiveContact& c : outcome->contacts)
@@ -214,29 +221,68 @@ void Recorder::write(const StepRecord& record) {
                          static_cast<double>(outcome->unresolved), outcome->error.value_or(nan),
                          static_cast<double>(outcome->rejected_by_error), static_cast<double>(outcome->rejected_by_failure)})
       summary.push_back(value);
-    if (columns_ == StepsColumns::between_walls) {
-      const ParticleStress stress = particle_stress(record.bodies, *outcome);
-      for (double value : {outcome->reaction.back().torque, outcome->container.torque, order_parameter(record.bodies),
-                           effective_viscosity(record.bodies, *outcome), stress.stresslets.shear,
-                           stress.stresslets.normal_difference, stress.contacts.shear, stress.contacts.normal_difference})
-        summary.push_back(value);
-    }
+    append_geometry(record, summary);
   } else {
     summary.resize(steps_columns(columns_).size(), nan);
     summary[6] = record.min_gap;
   }
   steps_.row(summary);
-
-  if (outcome && record.step % output_every_ != 0) {
-    skipped_ = std::move(rows);
-  } else {
-    if (!outcome)
-      for (const Row& row : skipped_) trajectory_.row(row);
-    skipped_.clear();
-    for (const Row& row : rows) trajectory_.row(row);
-  }
+  write_bodies(record);
   trajectory_.flush();
   steps_.flush();
+}
+
+// The columns of one geometry.
+void Recorder::append_geometry(const StepRecord& record, Row& row) const {
+  const StepOutcome& step = *record.outcome;
+  const auto append = [&row](std::initializer_list<double> values) { row.insert(row.end(), values); };
+  switch (columns_) {
+    case StepsColumns::unbounded: {
+      const StressSum sum = stress_sum(record.bodies, step);
+      append({sum.stresslets.real(), sum.stresslets.imag(), sum.contacts.real(), sum.contacts.imag()});
+      const double nan = std::nan("");
+      if (sample_.area == 0.0) return append({nan, nan, nan});
+      const Complex stress = sample_.stress(sum, step.driving);
+      return append({stress.real(), stress.imag(), sample_.viscosity(sum, step.driving)});
+    }
+    case StepsColumns::in_disc: return append({step.container.torque});
+    case StepsColumns::between_walls: {
+      const ParticleStress stress = particle_stress(record.bodies, step);
+      return append({step.reaction.back().torque, step.container.torque, order_parameter(record.bodies),
+                     effective_viscosity(record.bodies, step), stress.stresslets.shear, stress.stresslets.normal_difference,
+                     stress.contacts.shear, stress.contacts.normal_difference});
+    }
+  }
+}
+
+// Of a step that is left out the rows wait until it is known whether it is the last.
+void Recorder::write_bodies(const StepRecord& record) {
+  const StepOutcome* outcome = record.outcome;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < record.bodies.size(); ++i) {
+    if (record.bodies[i].points > 0) continue;  // a wall
+    const Pose& pose = record.bodies[i].pose;
+    Row row = {static_cast<double>(record.step), record.time, static_cast<double>(i), pose.centre.real(), pose.centre.imag(),
+               pose.angle};
+    if (outcome) {
+      const RigidVelocity& u = outcome->velocity[i];
+      const Wrench& f = outcome->contact_wrench[i];
+      const Complex s = outcome->stresslets[i];
+      row.insert(row.end(), {u.velocity.real(), u.velocity.imag(), u.omega, f.force.real(), f.force.imag(), f.torque,
+                             s.real(), s.imag()});
+    } else {
+      row.resize(trajectory_columns.size(), std::nan(""));
+    }
+    rows.push_back(std::move(row));
+  }
+  if (outcome && record.step % output_every_ != 0) {
+    skipped_ = std::move(rows);
+    return;
+  }
+  if (!outcome)
+    for (const Row& row : skipped_) trajectory_.row(row);
+  skipped_.clear();
+  for (const Row& row : rows) trajectory_.row(row);
 }
 
 void Recorder::sync() {
@@ -254,9 +300,11 @@ std::string columns_help() {
                 "for the final configuration. Walls have none.\n\n",
                 help_of(trajectory_table),
                 "\nsteps.csv has a row for every step and one for the final configuration.\n\n", help_of(steps_table),
+                "\nin unbounded fluid also\n\n", help_of(unbounded_table), "\nin a disc\n\n", help_of(disc_table),
                 "\nand in an annulus\n\n", help_of(walls_table),
                 "\nA field is empty where there is nothing to tell: of the step from the final configuration, which is not\n"
-                "made, and of multipliers without contacts. Units are those of the case, with viscosity 1.\n");
+                "made, of multipliers without contacts, of bulk stress and viscosity without sample_area. Units are those\n"
+                "of the case, with viscosity 1.\n");
 }
 
 }  // namespace stokes

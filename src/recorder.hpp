@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "csv.hpp"
+#include "rheology.hpp"
 #include "simulation.hpp"
 
 namespace stokes {
@@ -18,20 +19,23 @@ std::string why_not_writable(const std::filesystem::path& folder);
 // Creates the folder if it is missing. InputError if it cannot be created or written.
 const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 
-// trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque
+// trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque,stresslet_11,stresslet_12
 //   The configuration at the start of a step, the velocities and the contact forces and torques that moved
-//   it; every `output_every`-th step, the first and the last; the final configuration is one more step
+//   it, the stresslets; every `output_every`-th step, the first and the last; the final configuration is one more step
 //   whose other fields are empty. Walls are no bodies of it.
 // steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,
 //            smallest_multiplier,largest_multiplier,estimated_error,nodes,clusters,most_nodes,unresolved
 //   A row for every step and one for the final configuration. The estimated error is that of the velocities with an
 //   accuracy (resolution.hpp), which `unresolved` boundaries do not keep; nodes and clusters are those of all boundaries,
 //   most_nodes those of one. The multipliers are those of the step's contacts, empty
-//   without any: forces, or, with interference volumes, factors of the volumes' gradients. Between walls there are more
-//   columns: inner_torque and outer_torque, of the inner wall and of the container on the fluid, about
-//   their centres; and order_parameter, effective_viscosity, stresslet_shear, stresslet_normal_difference,
-//   contact_shear, contact_normal_difference (rheology.hpp).
-enum class StepsColumns { unbounded, between_walls };
+//   without any: forces, or, with interference volumes, factors of the volumes' gradients. There are more columns
+//   (rheology.hpp):
+//   * in unbounded fluid: stresslet_sum_11, stresslet_sum_12, contact_sum_11, contact_sum_12 and, with the area of a sample,
+//     bulk_stress_11, bulk_stress_12, effective_viscosity;
+//   * in a disc: outer_torque, of the container on the fluid about its centre;
+//   * between two walls: inner_torque, outer_torque, order_parameter, effective_viscosity, stresslet_shear,
+//     stresslet_normal_difference, contact_shear, contact_normal_difference.
+enum class StepsColumns { unbounded, in_disc, between_walls };
 
 class Recorder {
  public:
@@ -44,12 +48,14 @@ class Recorder {
   };
 
   // Creates the folder if it is missing. InputError if it cannot be written.
-  Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns = StepsColumns::unbounded);
+  Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns = StepsColumns::unbounded,
+           const Sample& sample = {});
   // Says why the files in a folder do not belong to a run that was at `position`; empty if they do.
   static std::string why_not_continued(const std::filesystem::path& folder, StepsColumns columns,
                                        const Position& position);
   // Continues the files of a run that was at `position`. Everything behind that position is cut off.
-  Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Position& position);
+  Recorder(const std::filesystem::path& folder, int output_every, StepsColumns columns, const Sample& sample,
+           const Position& position);
 
   const Position& position() const { return position_; }
 
@@ -65,9 +71,12 @@ class Recorder {
 
  private:
   void write(const StepRecord& record);
+  void write_bodies(const StepRecord& record);
+  void append_geometry(const StepRecord& record, Row& row) const;
 
   int output_every_;
   StepsColumns columns_;
+  Sample sample_;
   CsvWriter trajectory_, steps_;
   std::vector<Row> skipped_;  // rows of the latest step between two outputs; written if it is the last step
   Position position_;         // after the latest record

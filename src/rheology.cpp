@@ -67,6 +67,22 @@ double effective_viscosity_outer(const Suspension& bodies, const StepOutcome& ou
   return ratio(-outcome.container.torque, outcome.driving * couette_flow(bodies).inner_torque());
 }
 
+StressSum stress_sum(const Suspension& bodies, const StepOutcome& outcome) {
+  StressSum sum;
+  for (const Complex stresslet : outcome.stresslets) sum.stresslets += stresslet;
+  for (const ActiveContact& contact : outcome.contacts) {
+    const ContactConstraint& c = contact.constraint;
+    const Complex apart = bodies[c.b].pose.centre - bodies[c.a].pose.centre;
+    sum.contacts += 0.5 * contact.multiplier * c.force.centre_a * apart;  // without trace, as above
+  }
+  return sum;
+}
+
+double Sample::viscosity(const StressSum& sum, double driving) const {
+  const Complex strain = driving * strain_rate;
+  return ratio(dot(stress(sum, driving), strain), 2.0 * std::norm(strain));
+}
+
 ParticleStress particle_stress(const Suspension& bodies, const StepOutcome& outcome) {
   ParticleStress result;
   const Complex centre = bodies.container->centre;

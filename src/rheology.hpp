@@ -1,6 +1,7 @@
-// Rheology of a suspension between two cylinders: alignment, effective viscosity, bulk stress.
+// Rheology of a suspension: alignment, effective viscosity, bulk stress.
 //
-// Everything refers to the bodies that move, in polar coordinates (r, theta) about the walls' common centre.
+// Between two cylinders everything refers to the bodies that move, in polar coordinates (r, theta) about the walls' common
+// centre.
 #pragma once
 
 #include "stepper.hpp"
@@ -44,5 +45,26 @@ struct ParticleStress {
                           // the place of contact on a wall
 };
 ParticleStress particle_stress(const Suspension& bodies, const StepOutcome& outcome);
+
+// In unbounded fluid the same as sums, not per area, in the laboratory frame: the parts without trace as T_11 + i T_12.
+// Forces that the case gives are not in it.
+struct StressSum {
+  Complex stresslets;  // of the bodies about their centres
+  Complex contacts;    // sym(F (x) d) as above
+
+  Complex total() const { return stresslets + contacts; }
+};
+StressSum stress_sum(const Suspension& bodies, const StepOutcome& outcome);
+
+// Part of the unbounded fluid that the bodies stand for. Its stress without trace is
+//   Sigma = 2 E + (sum of stresslets and contacts) / area,  E the background's rate of strain,
+// and its viscosity Sigma:E / 2 E:E, NaN where E = 0. That is 1 + 2 phi for discs far apart, the area fraction being phi.
+struct Sample {
+  double area = 0.0;  // 0: none
+  Complex strain_rate{0.0, 0.0};  // E_11 + i E_12 where the driving is 1
+
+  Complex stress(const StressSum& sum, double driving) const { return 2.0 * driving * strain_rate + sum.total() / area; }
+  double viscosity(const StressSum& sum, double driving) const;
+};
 
 }  // namespace stokes

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "annulus.hpp"
 #include "checkpoint.hpp"
 #include "fields.hpp"
 #include "neighbours.hpp"
@@ -29,9 +30,26 @@ void warn_of_small_gaps(const Case& c, const Suspension& bodies, double separati
                             " apart, below the minimum separation ", separation, "; the first step restores it"));
 }
 
-// The fastest strain or rotation of the flow without bodies.
+StepsColumns columns_of(const Suspension& bodies) {
+  if (!bodies.container) return StepsColumns::unbounded;
+  return inner_wall_of(bodies) ? StepsColumns::between_walls : StepsColumns::in_disc;
+}
+
+Sample sample_of(const Case& c) { return {c.sample_area.value_or(0.0), strain_rate(c.background().flow(0.0))}; }
+
+// The fastest strain or rotation of the flow without bodies, at the first places of the bodies.
 double largest_rate(const Case& c, const Suspension& bodies) {
-  if (!bodies.container) return c.flow == FlowKind::none ? 0.0 : std::abs(c.rate);
+  if (!bodies.container) {
+    double height = 0.0;  // in Poiseuille flow the rate grows with it
+    for (const Body& body : bodies) height = std::max(height, std::abs(body.pose.centre.imag()) + body.shape.circumradius());
+    switch (c.flow) {
+      case FlowKind::none: return 0.0;
+      case FlowKind::linear: return std::abs(c.rate) * c.background().gradient.largest();
+      case FlowKind::poiseuille: return 2.0 * std::abs(c.rate) * height;
+      default: return std::abs(c.rate);
+    }
+  }
+  if (!inner_wall_of(bodies)) return std::abs(bodies.container->surface.angular_velocity);
   const CouetteFlow flow = couette_flow(bodies);
   return std::abs(flow.shear_rate(flow.inner_radius));
 }
@@ -217,7 +235,7 @@ double contact_tolerance_for(const Case& c, const Suspension& bodies, double sep
 
 SimulationOptions options_of(const Case& c, const Suspension& bodies) {
   SimulationOptions options;
-  options.stepper.flow = {c.flow, c.rate};
+  options.stepper.flow = c.background();
   options.stepper.accuracy = c.accuracy.value_or(0.0);
   options.stepper.points_per_body = c.points_per_body;
   options.stepper.refine = c.refine;
@@ -230,6 +248,7 @@ SimulationOptions options_of(const Case& c, const Suspension& bodies) {
   options.stepper.lcp_matrix = c.lcp_matrix;
   options.stepper.stiv_vertices = c.stiv_vertices;
   options.stepper.stiv_gradient = c.stiv_gradient;
+  options.start_time = c.start_time;
   options.time_step = c.time_step;
   options.end_time = c.end_time;
   options.reverse_at = c.reverse_at;
@@ -249,14 +268,14 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
 
   const FolderLock lock(c.output);
   const CheckpointFile file(c, bodies);
-  const StepsColumns columns = bodies.container ? StepsColumns::between_walls : StepsColumns::unbounded;
+  const StepsColumns columns = columns_of(bodies);
   const auto [start, warnings] = beginning(c, bodies, file, columns);
-  Progress progress(c.end_time, start ? start->run.time : 0.0, label);
+  Progress progress(c.end_time, start ? start->run.time : c.start_time, label);
   for (const std::string& warning : warnings) progress.message(concat("warning: ", warning));
   std::optional<VtkWriter> vtk;
   if (c.vtk) vtk.emplace(std::filesystem::path(c.output) / "vtk", c.output_every);
-  Recorder recorder = start ? Recorder(c.output, c.output_every, columns, start->recorder)
-                            : Recorder(c.output, c.output_every, columns);
+  Recorder recorder = start ? Recorder(c.output, c.output_every, columns, sample_of(c), start->recorder)
+                            : Recorder(c.output, c.output_every, columns, sample_of(c));
   if (start) {
     options.start = start->run;
     progress.message(concat("going on from step ", start->run.step, ", time ", start->run.time));
@@ -289,6 +308,7 @@ RunSummary simulate_case(const Case& c, const std::string& label) {
   } catch (const Interruption& end) {
     throw Interruption{end.signal, checkpoints.interruption()};
   }
+  if (vtk) vtk->write_series();
   recorder.close();
   file.remove();
   resolution.conclude();

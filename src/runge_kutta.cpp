@@ -31,7 +31,7 @@ void RungeKutta::make_stages(StepStart& start, double dt, Trial& trial) const {
     Stage stage{b[i], i == 0 ? start.configuration() : start.configuration(trial.poses, elapsed), {}};
     std::vector<Pose> base = first;
     for (std::size_t j = 0; j < i; ++j)
-      if (weights[j] != 0.0) base = advanced(start.bodies(), base, weights[j] * dt, trial.stages[j].solution.velocity);
+      if (weights[j] != 0.0) base = advanced(base, weights[j] * dt, trial.stages[j].solution.velocity);
     stage.solution = start.solve(*stage.at, base, weights[i] * dt);
     trial.failure = stage.solution.failure;
     if (!stage.solution.solved) return;

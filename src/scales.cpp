@@ -62,8 +62,11 @@ std::string out_of_scale(const Suspension& bodies, const BackgroundFlow& flow) {
     judge(concat("injection_rate ", surface.source), surface.source / (2.0 * pi * radius), axis);
   };
   if (flow.kind != FlowKind::none) {
-    judge(concat("rate = ", flow.rate), flow.rate * reach, reach);
-    judge(concat("rate = ", flow.rate), flow.rate * reach, axis);
+    double speed = flow.rate * reach;
+    if (flow.kind == FlowKind::poiseuille) speed *= reach;
+    if (flow.kind == FlowKind::linear) speed *= flow.gradient.largest();
+    judge(concat("rate = ", flow.rate), speed, reach);
+    judge(concat("rate = ", flow.rate), speed, axis);
   }
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
@@ -71,6 +74,8 @@ std::string out_of_scale(const Suspension& bodies, const BackgroundFlow& flow) {
       judge_wall(body.surface, body.shape.a);
       continue;
     }
+    judge(concat("the velocity of body ", i), std::abs(body.surface.translation), axis);
+    judge(concat("the angular velocity of body ", i), body.surface.angular_velocity * body.shape.circumradius(), axis);
     judge(concat("the force on body ", i), std::hypot(body.force.real(), body.force.imag()), axis);
     judge(concat("the torque on body ", i), body.torque / body.shape.inradius(), axis);
   }

@@ -35,6 +35,9 @@ std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair
   }
   if (const std::string why = lost_precision(bodies); !why.empty()) return why;
   if (!(closest.gap < 0.0)) return {};
+  if (bodies[closest.a].fixed && (closest.b == container_index || bodies[closest.b].fixed))
+    return concat(pair_name(closest.a, closest.b), " overlap by ", brief(-closest.gap),
+                  ": both move as they are given; end the run before, or change ux, uy or omega");
   return concat(pair_name(closest.a, closest.b), " overlap by ", brief(-closest.gap), "; try a smaller time_step",
                 contact == ContactModel::none ? ", or contact = gap" : "");
 }

@@ -1,4 +1,4 @@
-// Runs a suspension from time 0 to its end: the loop of a StepController and a Stepper.
+// Runs a suspension from its start to its end: the loop of a StepController and a Stepper.
 #pragma once
 
 #include <functional>
@@ -35,7 +35,7 @@ using StateObserver = std::function<void(const RunState&, RunStage)>;
 
 struct SimulationOptions : TimeOptions {
   StepperOptions stepper;
-  std::optional<SavedRun> start;  // to go on from, instead of time 0
+  std::optional<SavedRun> start;  // to go on from, instead of the beginning
   StateObserver observe_state;    // after the other observer; it may end the run with an exception
 };
 

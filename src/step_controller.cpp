@@ -20,8 +20,8 @@ constexpr double safety = 0.9, least_factor = 0.2, largest_factor = 3.0, least_r
 }  // namespace
 
 StepController::StepController(const TimeOptions& options)
-    : options_(options), step_count_(std::max(1L, std::lround(options.end_time / options.time_step))),
-      next_(options.time_step) {}
+    : options_(options), step_count_(std::max(1L, std::lround((options.end_time - options.start_time) / options.time_step))),
+      time_(options.start_time), next_(options.time_step) {}
 
 bool StepController::done() const {
   const bool by_time = options_.adaptive || options_.time_counting == TimeCounting::accumulated;
@@ -79,7 +79,8 @@ void StepController::accept(const StepOutcome& outcome) {
   } else if (options_.time_counting == TimeCounting::accumulated) {
     time_ += outcome.dt;
   } else {
-    time_ = step_ == step_count_ ? options_.end_time : static_cast<double>(step_) * options_.time_step;
+    time_ = options_.start_time + static_cast<double>(step_) * options_.time_step;
+    if (step_ == step_count_) time_ = options_.end_time;
   }
 }
 

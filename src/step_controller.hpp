@@ -15,11 +15,13 @@
 namespace stokes {
 
 enum class TimeCounting {
-  exact,        // round(end_time / time_step) steps that start at k time_step, the last one ends at end_time
+  exact,        // round((end_time - start_time) / time_step) steps that start at start_time + k time_step, the last one
+                // ends at end_time
   accumulated,  // t += dt while t < end_time, in floating point: may overshoot by a step
 };
 
 struct TimeOptions {
+  double start_time = 0.0;
   double time_step = 0.0;            // first and largest step when adaptive
   double end_time = 0.0;
   std::optional<double> reverse_at;  // driving changes sign at the first step that starts at or after it

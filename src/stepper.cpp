@@ -11,10 +11,8 @@ namespace stokes {
 
 namespace {
 
-// Turns the surfaces of the walls; `way`: driving times the time that passes, `path`: the sum of it all.
-void turn_walls(Suspension& bodies, double way, double path) {
-  for (Body& body : bodies)
-    if (body.fixed) body.pose.angle += body.surface.angular_velocity * way;
+// Fixed bodies move as their surfaces do, by the poses of a step; only the container's surface turns beside them.
+void turn_container(Suspension& bodies, double path) {
   if (bodies.container) bodies.container->angle = bodies.container->surface.angular_velocity * path;
 }
 
@@ -160,9 +158,8 @@ class Stepper::State : public StepStart {
     memory_.total = {first.path(), first.nodes(), trial_.stages.front().solution.density};
     memory_.resolution = trial_.stages.back().at->resolution();
     for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].pose = trial_.poses[i];
-    const double way = driving_ * dt_;
-    memory_.path += way;
-    turn_walls(bodies_, way, memory_.path);
+    memory_.path += driving_ * dt_;
+    turn_container(bodies_, memory_.path);
     if (restoring_)
       continued_driving_.reset();
     else
@@ -194,16 +191,16 @@ class Stepper::State : public StepStart {
     if (const double driving = reader.number(); driving != 0.0) continued_driving_ = driving;
     contacts_.matrix().restore(reader);
     integrator_->restore(reader);
-    turn_walls(bodies_, 0.0, memory_.path);
+    turn_container(bodies_, memory_.path);
     start_.reset();
   }
 
  private:
-  // The bodies at other poses, the walls turned as after this time.
+  // The bodies at other poses, the container turned as after this time.
   Suspension at_poses(const std::vector<Pose>& poses, double elapsed) const {
     Suspension bodies = bodies_;
     for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
-    turn_walls(bodies, driving_ * elapsed, path_after(elapsed));
+    turn_container(bodies, path_after(elapsed));
     return bodies;
   }
 
@@ -264,7 +261,7 @@ double Stepper::geometric_step_limit(double driving) {
   const Suspension& all = bodies();
   double limit = std::numeric_limits<double>::infinity(), width = 0.0;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (u[i].omega != 0.0) limit = std::min(limit, 0.2 / std::abs(u[i].omega));
+    if (u[i].omega != 0.0 && all[i].points == 0) limit = std::min(limit, 0.2 / std::abs(u[i].omega));
     if (!all[i].fixed) width = std::max(width, all[i].shape.inradius());
   }
   for (const auto& [i, j] : contact_candidates(all, poses_of(all), width)) {

@@ -218,7 +218,14 @@ StokesSolution StokesSystem::solve_data(const BoundarySet& set, ComplexVector da
 
 StokesSolution StokesSystem::solve(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                                    const ComplexVector& guess, double scale) const {
-  return solve_data(all_, boundary_data(all_, flow, wrenches), guess, options_.gmres_tolerance, scale);
+  StokesSolution solution = solve_data(all_, boundary_data(all_, flow, wrenches), guess, options_.gmres_tolerance, scale);
+  add_given_motion(flow, solution);
+  return solution;
+}
+
+void StokesSystem::add_given_motion(const BackgroundFlow& flow, StokesSolution& solution) const {
+  for (const int f : fixed_)
+    solution.velocity[f] = {flow.walls * surfaces_[f].translation, flow.walls * surfaces_[f].angular_velocity};
 }
 
 StokesSolution StokesSystem::solve_for_velocity(const ComplexVector& velocity, const ComplexVector& guess) const {
@@ -240,6 +247,7 @@ StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector
   Preconditioner(PreconditionerKind::block, boundaries_, {}, {}).apply(all_, residual, change);
   density += change;
   finish(all_, density, solution);
+  add_given_motion(flow, solution);
   return solution;
 }
 

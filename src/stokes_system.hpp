@@ -45,7 +45,7 @@ struct StokesOptions {
 // data, so solutions superpose.
 struct StokesSolution {
   ComplexVector density;                // all boundaries' nodes in order, body frames
-  std::vector<RigidVelocity> velocity;  // one per body, laboratory frame; zero for fixed ones
+  std::vector<RigidVelocity> velocity;  // one per body, laboratory frame; that of its surface for a fixed one
   std::vector<Wrench> reaction;         // of fixed bodies on the fluid, about their centres; zero for free ones
   int iterations = 0;                   // GMRES iterations
   double residual = 0.0;                // relative true residual
@@ -166,6 +166,7 @@ class StokesSystem {
   StokesSolution solve_data(const BoundarySet& set, ComplexVector data, const ComplexVector& guess, double tolerance,
                             double scale = 0.0) const;
   void finish(const BoundarySet& set, const Vector& density, StokesSolution& solution) const;
+  void add_given_motion(const BackgroundFlow& flow, StokesSolution& solution) const;
 
   std::vector<PointFlow> double_layer_flow(const std::vector<Complex>& points, const ComplexVector& density) const;
   std::vector<PointFlow> summed_flow(const PointArray& points, const ComplexVector& lab_density) const;

@@ -21,29 +21,36 @@ struct Pose {
   Complex axis() const { return std::polar(1.0, angle); }
 };
 
-// Velocity of a wall's surface. The wall itself stays where it is. The nodes of a rotating wall move with its surface, so
-// that they stay beside the bodies that it carries along:
-//   u(x) = angular_velocity perp(x - c) + source (x - c) / (2 pi |x - c|^2),  c the wall's centre.
+// Velocity of the surface of a wall or of a fixed body, c its centre:
+//   u(x) = translation + angular_velocity perp(x - c) + source (x - c) / (2 pi |x - c|^2).
+// A fixed body and its nodes move with the rigid part. A wall has no translation. The nodes of a rotating wall move with its
+// surface, so that they stay beside the bodies that it carries along.
 struct SurfaceMotion {
   double angular_velocity = 0.0;
   double source = 0.0;  // area of fluid per time, positive away from the centre
+  Complex translation{0.0, 0.0};
+
+  bool operator==(const SurfaceMotion&) const = default;
 
   Complex velocity(Complex from_centre) const {
-    Complex u = angular_velocity * perp(from_centre);
+    Complex u = translation + angular_velocity * perp(from_centre);
     if (source != 0.0) u += source / (2.0 * pi * std::norm(from_centre)) * from_centre;
     return u;
   }
 };
 
-// A rigid body, or, held in place, an obstacle or an inner wall of the domain.
+// A rigid body that moves freely; a fixed one, held in place or driven at a given velocity; or an inner wall of the domain.
 struct Body {
   Shape shape;
   Pose pose;
   Complex force{0.0, 0.0};  // external force on the body
   double torque = 0.0;      // external torque on the body about its centre
-  bool fixed = false;       // does not move, whatever the force on it; its surface may move
+  bool fixed = false;       // moves with its surface, whatever the force on it
   SurfaceMotion surface{};  // of a fixed body
   int points = 0;           // on its boundary; 0: as many as on every body
+
+  // A fixed body, no wall, that changes its place or angle.
+  bool is_driven() const { return fixed && points == 0 && (surface.translation != 0.0 || surface.angular_velocity != 0.0); }
 };
 
 // A circular wall around the fluid.

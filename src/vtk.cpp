@@ -1,8 +1,10 @@
 #include "vtk.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <limits>
 
 #include "csv.hpp"
@@ -120,11 +122,42 @@ std::string vtk_file(const StepRecord& record, int outline_points) {
 VtkWriter::VtkWriter(const std::filesystem::path& folder, int output_every)
     : folder_(made_folder(folder)), output_every_(output_every) {}
 
+VtkWriter::~VtkWriter() {
+  try {
+    write_series();
+  } catch (const std::exception&) {  // the pictures are there, only their times are not listed
+  }
+}
+
 void VtkWriter::write(const StepRecord& record) const {
   if (record.outcome && record.step % output_every_ != 0) return;
   std::string number = std::to_string(record.step);
   number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
   write_file_atomically(folder_ / concat("step_", number, ".vtk"), vtk_file(record));
+}
+
+// The second line of a file is "step N, time T". Numbers of steps have leading zeros: more digits are later.
+void VtkWriter::write_series() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("step_") && name.ends_with(".vtk"))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const auto& p, const auto& q) {
+    const std::string a = p.filename().string(), b = q.filename().string();
+    return std::pair(a.size(), a) < std::pair(b.size(), b);
+  });
+  std::vector<std::string> entries;
+  for (const auto& file : files) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string line;
+    std::getline(stream, line), std::getline(stream, line);
+    const std::size_t time = line.find("time ");
+    if (time == std::string::npos || !parse_number(std::string_view(line).substr(time + 5))) continue;
+    entries.push_back(concat("{\"name\": \"", folder_.filename().string(), "/", file.filename().string(), "\", \"time\": ",
+                             line.substr(time + 5), "}"));
+  }
+  write_file_atomically(folder_.parent_path() / "run.vtk.series",
+                        concat("{\"file-series-version\": \"1.0\", \"files\": [\n", join(entries, ",\n"), "\n]}\n"));
 }
 
 }  // namespace stokes

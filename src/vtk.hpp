@@ -15,14 +15,21 @@ namespace stokes {
 std::string vtk_file(const StepRecord& record, int outline_points = 96);
 
 // Writes FOLDER/step_<number of the step, at least six digits>.vtk at the start of every `output_every`-th step and for
-// the final configuration.
+// the final configuration. Beside FOLDER, run.vtk.series names all of them with their times, for ParaView.
 class VtkWriter {
  public:
   // Creates the folder. InputError if it cannot be written.
   VtkWriter(const std::filesystem::path& folder, int output_every);
+  VtkWriter(const VtkWriter&) = delete;
+  VtkWriter& operator=(const VtkWriter&) = delete;
+  // Writes the series, without a complaint if it cannot: a run that ends early has other messages.
+  ~VtkWriter();
 
   // Replaces each file as a whole. NumericalError on a write error.
   void write(const StepRecord& record) const;
+
+  // The same for the series of the files that are there, those of a run before an interruption included.
+  void write_series() const;
 
  private:
   std::filesystem::path folder_;

@@ -102,10 +102,10 @@ TEST_CASE("a key of the wrong geometry is refused") {
     check_refused(unbounded, argument, key + " = ");
     check_refused(unbounded, argument, concat(key, " = '", argument + key.size() + 1, "' belongs to an annulus"));
   }
-  for (const char* flow : {"shear", "extension", "taylor_green"})
+  for (const char* flow : {"shear", "extension", "poiseuille", "taylor_green"})
     check_refused(complete, concat("flow=", flow), concat("flow = '", flow, "' is a flow of unbounded fluid"));
   check_refused(complete, "geometry=anulus",
-                "geometry = 'anulus' is unknown: it can be unbounded or annulus; did you mean 'annulus'?");
+                "geometry = 'anulus' is unknown: it can be unbounded or disc or annulus; did you mean 'annulus'?");
 }
 
 TEST_CASE("values of the new keys out of their limits are refused") {

@@ -64,9 +64,16 @@ std::string columns_of(const fs::path& table) {
 }
 
 // Runs two steps of a case, with the arguments that a page gives to simulate.
-void check_runs(const std::vector<std::string>& arguments) {
+void check_runs(std::vector<std::string> arguments) {
   CAPTURE(join(arguments, " "));
   const TemporaryFolder folder;
+  for (std::string& argument : arguments)
+    if (argument.starts_with("start_from=")) {  // of a run of the same case, made here
+      const std::string earlier = (folder.path() / "earlier").string();
+      const std::string end = concat("end_time=", 2.0 * read_case(arguments[0]).time_step);
+      REQUIRE(run_program(simulate_program(), {arguments[0], concat("output=", earlier), end}, ".").status == 0);
+      argument = concat("start_from=", earlier);
+    }
   std::vector<std::string> shortened = {fs::absolute(arguments[0]).string()};
   std::string step;
   for (std::size_t k = 1; k < arguments.size(); ++k) {
@@ -74,7 +81,7 @@ void check_runs(const std::vector<std::string>& arguments) {
     if (!arguments[k].starts_with("end_time=")) shortened.push_back(arguments[k]);
   }
   const Case c = read_case(arguments[0], {arguments.begin() + 1, arguments.end()});
-  shortened.push_back(concat("end_time=", 2.0 * c.time_step));
+  shortened.push_back(concat("end_time=", c.start_time + 2.0 * c.time_step));
   const ProgramRun run = run_program(simulate_program(), shortened, folder.path());
   CAPTURE(run.errors);
   CHECK(run.status == 0);

@@ -69,11 +69,14 @@ TEST_CASE("trajectory.csv and steps.csv begin with their columns and have the do
   const Results results = run(here);
   const std::string trajectory = content_of(here.path() / "out/trajectory.csv");
   const std::string steps = content_of(here.path() / "out/steps.csv");
-  CHECK(trajectory.starts_with("step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque\n0,0,0,-2,0.5,0.25,"));
+  CHECK(trajectory.starts_with(
+      "step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque,stresslet_11,stresslet_12\n0,0,0,-2,0.5,0.25,"));
   CHECK(steps.starts_with(
       "step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,"
       "smallest_multiplier,largest_multiplier,estimated_error,nodes,clusters,most_nodes,unresolved,"
-      "local_error,rejected_by_error,rejected_by_failure\n0,0,0.1,"));
+      "local_error,rejected_by_error,rejected_by_failure,"
+      "stresslet_sum_11,stresslet_sum_12,contact_sum_11,contact_sum_12,bulk_stress_11,bulk_stress_12,effective_viscosity\n"
+      "0,0,0.1,"));
   CHECK(results.trajectory.numbers("step") == Numbers{0, 0, 1, 1, 2, 2, 3, 3});
   CHECK(results.trajectory.numbers("body") == Numbers{0, 1, 0, 1, 0, 1, 0, 1});
   CHECK(results.step_column("step") == Numbers{0, 1, 2, 3});
@@ -84,12 +87,14 @@ TEST_CASE("trajectory.csv and steps.csv begin with their columns and have the do
       CHECK(content_of(table.file).find("nan") == std::string::npos);
       const bool known = name == "step" || name == "time" || name == "body" || name == "x" || name == "y" ||
                          name == "theta" || name == "min_gap";
-      const bool of_contacts = name.ends_with("_multiplier") || name == "local_error";  // there are none
+      // There are neither contacts, nor a tolerance, nor an area.
+      const bool is_unknown = name.ends_with("_multiplier") || name == "local_error" || name.starts_with("bulk_stress") ||
+                              name == "effective_viscosity";
       const std::size_t last_rows = table.has_column("body") ? 2 : 1;
       for (std::size_t row = 0; row < values.size(); ++row) {
         CAPTURE(name);
         CAPTURE(row);
-        CHECK(std::isnan(values[row]) == (of_contacts || (!known && row + last_rows >= values.size())));
+        CHECK(std::isnan(values[row]) == (is_unknown || (!known && row + last_rows >= values.size())));
       }
     }
 }
@@ -382,8 +387,8 @@ TEST_CASE("adaptive steps are cut at reverse_at and end_time, and get past what 
 TEST_CASE("fields of the step that is not made are empty in the last rows") {
   const Workspace here(case_text("shear", 8, 0.1, 0.2), one_disc);
   run(here);
-  CHECK(content_of(here.path() / "out/trajectory.csv").ends_with(",,,,,,\n"));
-  CHECK(contains(content_of(here.path() / "out/steps.csv"), "\n2,0.2,,,,,inf,,,,,,,,,,,,\n"));
+  CHECK(content_of(here.path() / "out/trajectory.csv").ends_with(",,,,,,,,\n"));
+  CHECK(contains(content_of(here.path() / "out/steps.csv"), "\n2,0.2,,,,,inf,,,,,,,,,,,,,,,,,,,\n"));
 }
 
 TEST_CASE("--help columns explains every column that a run writes, and so does the page for users") {
@@ -391,10 +396,15 @@ TEST_CASE("--help columns explains every column that a run writes, and so does t
                        "outer_angular_velocity = .5\npoints_per_body = 16\ntime_step = .1\nend_time = .1\noutput = out\n",
                        "a,b,x,y,theta\n.3,.2,2,0,0\n");
   const Results results = run(here);
+  here.write("disc.txt",
+             "bodies = bodies.csv\ngeometry = disc\nouter_radius = 3\ntime_step = .1\nend_time = .1\noutput = disc\n");
+  REQUIRE(here.run({"disc.txt"}).status == 0);
+  here.write("open.txt", "bodies = bodies.csv\nflow = shear\ntime_step = .1\nend_time = .1\noutput = open\n");
+  REQUIRE(here.run({"open.txt"}).status == 0);
   const ProgramRun help = here.run({"--help", "columns"});
   CHECK(help.status == 0);
   const std::string page = content_of("paper/RESULTS.md");
-  for (const Table& table : {results.trajectory, results.steps})
+  for (const Table& table : {results.trajectory, results.steps, here.results("disc").steps, here.results("open").steps})
     for (const std::string& name : table.header) {
       CAPTURE(name);
       const std::size_t at = help.output.find(concat("\n  ", padded(name, 29)));

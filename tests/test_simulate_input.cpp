@@ -153,7 +153,7 @@ TEST_CASE("a number that is malformed, not finite or out of range is bad input")
        {"output_every = 0", "threads = 0", "gmres_tolerance = 0", "gmres_tolerance = 2", "min_separation = -1",
         "min_separation_length = -1", "adaptive = maybe", "contact = gab", "coupling = golbal",
         "near_singular = chauchy", "time_counting = exactly", "refine = far", "summation = slow",
-        "fields_at = 0,1", "field_points = 1", "checkpoint_every = -1", "geometry = disc"})
+        "fields_at = 0,1", "field_points = 1", "checkpoint_every = -1", "geometry = dics"})
     check_refused_line(line, {std::string(line).substr(0, std::string_view(line).find(' '))});
   check_refused_value("flow", "sheer");
   check_refused(workspace(), {"case.txt", "time_step=-1"}, {"time_step=-1"});

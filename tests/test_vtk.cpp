@@ -124,6 +124,18 @@ TEST_CASE("there is a picture of every output_every-th step and of the end, and 
   CHECK(content_of(here.path() / "out/vtk/step_000012.vtk").find("step 12, time 1.2\n") != std::string::npos);
 }
 
+TEST_CASE("a series names the pictures with their times, also those before an interruption, and goes with an earlier run") {
+  const Workspace here(shear_case("output_every = 5\n"), bodies);
+  REQUIRE(here.run({"case.txt"}).status == 0);
+  const std::string expected =
+      "{\"file-series-version\": \"1.0\", \"files\": [\n{\"name\": \"vtk/step_000000.vtk\", \"time\": 0},\n"
+      "{\"name\": \"vtk/step_000005.vtk\", \"time\": 0.5},\n{\"name\": \"vtk/step_000010.vtk\", \"time\": 1},\n"
+      "{\"name\": \"vtk/step_000012.vtk\", \"time\": 1.2}\n]}\n";
+  CHECK(content_of(here.path() / "out/run.vtk.series") == expected);
+  REQUIRE(here.run({"case.txt", "vtk=no", "overwrite=yes"}).status == 0);
+  CHECK_FALSE(fs::exists(here.path() / "out/run.vtk.series"));
+}
+
 TEST_CASE("the container is a closed line before the bodies, the inner wall the last polygon, held in place") {
   const Workspace here("bodies = bodies.csv\ngeometry = annulus\ninner_radius = 1\nouter_radius = 3\nwall_points = 64\n"
                        "outer_angular_velocity = .5\npoints_per_body = 16\ntime_step = .1\nend_time = .1\noutput = out\n"
@@ -162,6 +174,7 @@ TEST_CASE("a run that is stopped and goes on ends with the pictures of an undist
   const std::vector<std::string> names = files_in(whole.path() / "out/vtk");
   CHECK(names.size() > 100);
   CHECK(files_in(here.path() / "out/vtk") == names);
+  CHECK(content_of(here.path() / "out/run.vtk.series") == content_of(whole.path() / "out/run.vtk.series"));
   for (const std::string& name : names)
     CHECK(content_of(here.path() / "out/vtk" / name) == content_of(whole.path() / "out/vtk" / name));
 }
