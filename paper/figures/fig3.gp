@@ -1,10 +1,12 @@
 # Figure 3: pathlines of the left disc from three heights, delta = 3h. Top: whole paths. Bottom left: next to the other
-# disc, with contact forces (solid) and without (dashed). Bottom right: heights at the end over heights at the start.
+# disc, with contact forces (solid) and without (dashed). Bottom right: heights at the end over heights at the start. Where
+# paths coincide all three are seen: those below are wider.
 width = 8.5; height = 8
 load "paper/figures/style.gp"
 folder = results . "/fig3_pathlines/"
 array height_of[3] = ["0.75", "0.755", "0.76"]
 colour_of(k) = delta_colour[2 * k - 1]
+width_of(k) = 3.9 - 1.1 * k
 set print $ends
 print "start_y,end_y"
 do for [k = 1:3] {
@@ -27,7 +29,7 @@ set xlabel "x of the left disc" offset 0,0.5
 set ylabel "y" offset 0.5,0
 set key top right
 plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" \
-         using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k) title "from y = " . height_of[k]
+         using "left_x":"left_y" with lines linewidth width_of(k) linecolor rgb colour_of(k) title "from y = " . height_of[k]
 
 set tmargin at screen 0.48
 set bmargin at screen 0.12
@@ -40,9 +42,9 @@ set format y "%.2f"
 set ylabel "y" offset 1,0
 unset key
 plot for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" \
-         using "free_left_x":"free_left_y" with lines dashtype 2 linecolor rgb colour_of(k), \
+         using "free_left_x":"free_left_y" with lines dashtype 2 linewidth 0.8 linecolor rgb colour_of(k), \
      for [k = 1:3] folder . "y" . height_of[k] . "_trajectory.csv" \
-              using "left_x":"left_y" with lines linewidth 1.3 linecolor rgb colour_of(k)
+              using "left_x":"left_y" with lines linewidth width_of(k) linecolor rgb colour_of(k)
 
 set lmargin at screen 0.70
 set rmargin at screen 0.98

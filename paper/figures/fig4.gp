@@ -36,12 +36,17 @@ set ylabel "y" offset 0.3,0
 set lmargin at screen 0.60
 set rmargin at screen 0.985
 set bmargin at screen 0.085
-set tmargin at screen 0.49
+set tmargin at screen 0.46
 set xrange [-1.7:1.7]
 set yrange [-1.7:1.7]
-set key center samplen 1
+unset key
+set label 2 "Δt" at screen 0.6, screen 0.483
+array place[3] = [0.65, 0.745, 0.858]
+do for [k = 1:3] {
+  set label 2 + k time_step[k] at screen place[k], screen 0.483 textcolor rgb step_colour[k]
+}
 plot for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" \
-         using "x":"y" with lines linewidth 1 linecolor rgb step_colour[k] title "Δt = " . time_step[k], \
+         using "x":"y" with lines linewidth 1 linecolor rgb step_colour[k], \
      for [k = 1:3] folder . "dt" . time_step[k] . "_track.csv" \
               using (column("in_contact") == 1 ? column("x") : NaN):"y" \
               with points pointtype 7 pointsize 0.2 linecolor rgb step_colour[k] notitle
