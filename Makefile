@@ -105,23 +105,48 @@ $(BUILD)/flags: FORCE | $(filter deps,$(MAKECMDGOALS))
 	@mkdir -p $(BUILD)
 	@echo '$(STAMP)' | cmp -s - $@ || echo '$(STAMP)' > $@
 
-COMPILE = $(CXX) $(FLAGS) -MMD -MP -c $< -o $@
-LIGHTLY = $(subst -O3,-O1,$(COMPILE))
+OBJECT   = -MMD -MP -c $< -o $@
+LIGHT    = $(subst -O3,-O1,$(FLAGS))
+DOCTEST  = -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+
+# Most of the time of most files goes into reading Eigen and the standard library. They are read once for each set of
+# flags, and the compiler includes the result ahead of the files. ccache, which keeps objects, does without.
+AHEAD    = algorithm array cmath complex filesystem fstream functional map memory numbers optional random string vector \
+           eigen3/Eigen/Core
+ifeq ($(findstring ccache,$(CXX)),)
+ahead    = -include $(BUILD)/ahead/$(1).hpp
+objects_with = $(patsubst %,$(BUILD)/%.o,$(2)): $(BUILD)/ahead/$(1).hpp.gch
+$(eval $(call objects_with,full,$(filter-out packing $(TEXT),$(LIBRARY)) $(PROGRAMS)))
+$(eval $(call objects_with,light,$(TEXT) $(EXPERIMENTS)))
+$(eval $(call objects_with,tests,$(filter-out main test_gap,$(TESTS)) fuzz_input))
+endif
+$(BUILD)/ahead/%.hpp: $(BUILD)/flags
+	@mkdir -p $(@D)
+	@printf '#include <%s>\n' $(AHEAD) $(if $(filter tests,$*),doctest/doctest.h) > $@
+$(BUILD)/ahead/full.hpp.gch: $(BUILD)/ahead/full.hpp
+	$(CXX) $(FLAGS) -x c++-header $< -o $@
+$(BUILD)/ahead/light.hpp.gch: $(BUILD)/ahead/light.hpp
+	$(CXX) $(LIGHT) -x c++-header $< -o $@
+$(BUILD)/ahead/tests.hpp.gch: $(BUILD)/ahead/tests.hpp
+	$(CXX) $(LIGHT) $(DOCTEST) -x c++-header $< -o $@
 
 $(OBJECTS): $(BUILD)/flags
-# Random starts have the same bits with every compiler: no product is fused with a sum.
-$(BUILD)/packing.o: FLAGS += -ffp-contract=off
 $(BUILD)/%.o: src/%.cpp
-	$(COMPILE)
+	$(CXX) $(FLAGS) $(call ahead,full) $(OBJECT)
+# Random starts have the same bits with every compiler: no product is fused with a sum.
+$(BUILD)/packing.o: src/packing.cpp
+	$(CXX) $(FLAGS) -ffp-contract=off $(OBJECT)
 $(TEXT:%=$(BUILD)/%.o): $(BUILD)/%.o: src/%.cpp
-	$(LIGHTLY)
+	$(CXX) $(LIGHT) $(call ahead,light) $(OBJECT)
 $(BUILD)/%.o: experiments/%.cpp
-	$(LIGHTLY)
+	$(CXX) $(LIGHT) $(call ahead,light) $(OBJECT)
 $(BUILD)/%.o: tests/%.cpp
-	$(LIGHTLY) -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+	$(CXX) $(LIGHT) $(DOCTEST) $(call ahead,tests) $(OBJECT)
+$(BUILD)/main.o: tests/main.cpp
+	$(CXX) $(LIGHT) $(DOCTEST) $(OBJECT)
 # It compares bits with what inline functions give in src.
 $(BUILD)/test_gap.o: tests/test_gap.cpp
-	$(COMPILE) -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
+	$(CXX) $(FLAGS) $(DOCTEST) $(OBJECT)
 
 # Of an inline function that several objects have, the linker takes the first: those with -O3 come first.
 LINK   = $(CXX) $(FLAGS) $^ -o $@ $(LIBS)
@@ -202,10 +227,13 @@ COUETTE_TABLES     = table2_order_parameter table3_effective_viscosity fig9_orde
 
 # $(call experiment,name,cases,quick cases,variants): `name` makes its cases, which decide the published numbers, and then
 # its tables; `name-all` makes the variants, too. An experiment of variants alone is no part of `reproduce`.
+# How many cases of the target are there already. How long the others take is not said: between a second and an hour each.
+cases_done = $(foreach t,$(filter reproduce reproduce-all reproduce-quick,$(MAKECMDGOALS)), \
+               "($$(ls $($(t)_files) 2>/dev/null | wc -l) of $(words $($(t)_files)) cases of $(t) are done)")
 define experiment
 .PHONY: $(1) $(1)-quick $(1)-all
 $(RESULTS)/$(1)/%.csv: $(BUILD)/$(1)
-	@echo $(1) $$*
+	@echo $(1) $$* $$(cases_done)
 	@$(BUILD)/$(1) case=$$* results=$(RESULTS)
 $(1): $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(or $(2),$(4)))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
@@ -213,6 +241,9 @@ $(1)-quick: $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(3))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
 $(1)-all: $(BUILD)/$(1) $$(patsubst %,$(RESULTS)/$(1)/%.csv,$(2) $(4))
 	@$(BUILD)/$(1) collect results=$(RESULTS)
+reproduce_files       += $(2:%=$(RESULTS)/$(1)/%.csv)
+reproduce-quick_files += $(3:%=$(RESULTS)/$(1)/%.csv)
+reproduce-all_files   += $$(addsuffix .csv,$$(addprefix $(RESULTS)/$(1)/,$(2) $(4)))
 $(if $(2)$(3)$(if $(4),,tables),reproduce: $(1)
 reproduce-quick: $(1)-quick)
 reproduce-all: $(1)-all

@@ -86,9 +86,9 @@ TEST_CASE("trim removes white space at the ends only, split keeps empty pieces")
 TEST_CASE("a quoted text stays one short line") {
   CHECK(quote("abc") == "'abc'");
   CHECK(quote("a\nb\x01") == "'a?b?'");
-  CHECK(quote(std::string(100, 'x')) == "'" + std::string(60, 'x') + "...'");
+  CHECK(quote(std::string(100, 'x')) == concat("'", std::string(60, 'x'), "...'"));
   // The two bytes of an e with an accent are not parted.
-  CHECK(quote(std::string(59, 'x') + "\xC3\xA9y") == "'" + std::string(59, 'x') + "...'");
+  CHECK(quote(std::string(59, 'x') + "\xC3\xA9y") == concat("'", std::string(59, 'x'), "...'"));
 }
 
 TEST_CASE("edit distance counts insertions, deletions, substitutions and swaps") {
