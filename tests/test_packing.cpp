@@ -73,7 +73,8 @@ TEST_CASE("a body is placed by three uniform numbers, to the last bit") {
 TEST_CASE("the paper's starts take as many tries as the published ones and keep their clearances") {
   const std::pair<const char*, int> published[] = {
       {"phi5_lambda3", 146}, {"phi10_lambda3", 360}, {"phi5_lambda6", 298}, {"phi10_lambda6", 1043}};
-  for (const auto& [name, tries] : published) {
+  for (const auto& [suspension_name, tries] : published) {
+    const char* const name = suspension_name;
     CAPTURE(name);
     const CouetteSuspension& suspension = couette_suspension(name);
     const PlacedBodies placed = couette_placement(suspension, suspension.paper_seed);
@@ -87,7 +88,8 @@ TEST_CASE("the paper's starts take as many tries as the published ones and keep 
 TEST_CASE("the order parameters of the paper's other starts are the published ones") {
   const std::pair<const char*, double> published[] = {
       {"phi5_lambda1", 0.228}, {"phi10_lambda1", 0.008}, {"phi15_lambda1", 0.040}, {"phi15_lambda3", -0.014}};
-  for (const auto& [name, value] : published) {
+  for (const auto& [suspension_name, value] : published) {
+    const char* const name = suspension_name;
     CAPTURE(name);
     CHECK(std::abs(order_parameter(CouetteCase{couette_suspension(name)}.bodies()) - value) < 0.0011);
   }
