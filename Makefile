@@ -216,9 +216,10 @@ INJECTION_ALL_CASES = paper_stiv paper_delta0.2h paper_delta0.3h paper_dt0.04 pa
 # Section 4.4: the paper's start of each suspension, longest first, and SEEDS other ones.
 SEEDS              ?= 3
 COUETTE            = phi15_lambda3 phi10_lambda6 phi5_lambda6 phi10_lambda3 phi15_lambda1 phi10_lambda1 phi5_lambda3 phi5_lambda1
-COUETTE_CASES      = $(COUETTE:%=%_paper) phi10_lambda1_paper_halfstep phi10_lambda1_paper_quarterstep
+COUETTE_CASES      = $(COUETTE:%=%_paper)
 COUETTE_ALL_CASES  = $(foreach k,$(shell seq $(SEEDS)),$(COUETTE:%=%_seed$(k))) \
-                     $(foreach v,points64 halfstep stiv,phi5_lambda3_paper_$(v))
+                     $(foreach v,points64 halfstep stiv,phi5_lambda3_paper_$(v)) \
+                     $(foreach v,halfstep quarterstep,phi10_lambda1_paper_$(v))
 COUETTE_STEPS      = $(COUETTE:%=%_paper_ab2_250) $(COUETTE:%=%_paper_ab2_500)
 TG_ORDER_CASES     = $(foreach t,0.025 0.0125 0.00625 0.003125,euler_dt$(t)) $(foreach t,0.1 0.05 0.025,ab2_dt$(t)) \
                        $(foreach t,0.2 0.1 0.05 0.0125,rk3_dt$(t))
