@@ -11,6 +11,8 @@ do for [d in "0 1 2 2.1 2.5 2.75 3"] {
   print d . "," . sprintf("%.6g", STATS_mean)
 }
 set print
+# Of the cases delta2h and published_2h.
+separation_of(name) = between(name, substr(name, 1, 5) eq "delta" ? "delta" : "published_", "h")
 set multiplot
 
 set size ratio -1
@@ -62,8 +64,6 @@ plot $ends \
          using "separation_over_h":"displacement" \
          with linespoints linewidth 1.4 pointtype 7 pointsize 0.3 linecolor rgb marked_colour title "here", \
      reference . "/fig2_shear_separation.csv" \
-              using (case_of("displacement", "delta", "h")):(read_off("displacement")) \
-              with points pointtype 6 pointsize 0.5 linecolor rgb published title "published", \
-     "" using (case_of("displacement", "published_", "h")):(read_off("displacement")) \
-              with points pointtype 6 pointsize 0.5 linecolor rgb published notitle
+              using (is_read_off("displacement") ? separation_of(strcol("case")) : NaN):(read_off("displacement")) \
+              with points pointtype 6 pointsize 0.5 linecolor rgb published title "published"
 unset multiplot
