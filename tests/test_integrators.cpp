@@ -7,6 +7,7 @@
 #include <map>
 
 #include "neighbours.hpp"
+#include "runge_kutta.hpp"
 #include "simulation.hpp"
 
 using namespace stokes;
@@ -85,6 +86,45 @@ Complex slide(IntegratorKind integrator, int steps) {
   CHECK(motion.imbalance < 1e-13);
   return motion.end[1].pose.centre - motion.end[0].pose.centre;
 }
+
+// A step from given bodies whose stages can be looked at.
+class OneStep : public StepStart {
+ public:
+  OneStep(Suspension bodies, const StepperOptions& options) : bodies_(std::move(bodies)), fluid_(options), contacts_(options) {}
+
+  const Suspension& bodies() const override { return bodies_; }
+  std::shared_ptr<Configuration> configuration() override {
+    if (!start_) start_ = std::make_shared<Configuration>(bodies_, 0.0, 1.0, fluid_, memory_);
+    return start_;
+  }
+  std::shared_ptr<Configuration> configuration(const std::vector<Pose>& poses, double elapsed) override {
+    return std::make_shared<Configuration>(at(poses), elapsed, 1.0, fluid_, memory_);
+  }
+  double path_after(double elapsed) const override { return elapsed; }
+  bool continues() const override { return false; }
+  double relative_gap(const std::vector<Pose>& poses) const override {
+    return smallest_gap(at(poses)).gap / fluid_.options.separation;
+  }
+  ContactSolution solve(Configuration& at, const std::vector<Pose>& base, double length) override {
+    return contacts_.solve(bodies_, at, base, length, {});
+  }
+  std::vector<RigidVelocity> contact_velocity(Configuration& at, const std::vector<ActiveContact>& contacts) override {
+    return contacts_.respond(at, contacts).velocity;
+  }
+
+  Suspension at(const std::vector<Pose>& poses) const {
+    Suspension bodies = bodies_;
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
+    return bodies;
+  }
+
+ private:
+  Suspension bodies_;
+  Fluid fluid_;
+  FluidMemory memory_;
+  ContactProblem contacts_;
+  std::shared_ptr<Configuration> start_;
+};
 
 const std::map<std::string, IntegratorKind> of_second_order = {
     {"ab2", IntegratorKind::ab2}, {"rk3", IntegratorKind::rk3}, {"midpoint", IntegratorKind::midpoint}};
@@ -173,6 +213,40 @@ TEST_CASE("discs that slide past each other converge at second order") {
     const double coarse = std::abs(slide(integrator, 20) - fine), half = std::abs(slide(integrator, 40) - fine);
     MESSAGE(name, ": errors ", coarse, " ", half, ", order ", std::log2(coarse / half));
     CHECK(std::log2(coarse / half) > 1.8);
+  }
+}
+
+TEST_CASE("every stage keeps the separation, and its contact forces balance where the fluid is solved") {
+  // A row of discs and nearly circular ellipses that is pressed together and sheared.
+  StepperOptions options;
+  options.flow = {FlowKind::shear, 1.0};
+  options.separation = 0.05;
+  options.contact_tolerance = 1e-6;
+  options.stokes.gmres_tolerance = 1e-8;
+  Suspension row;
+  for (int i = 0; i < 5; ++i)
+    row.push_back({{0.5, i % 2 ? 0.49 : 0.5}, {{1.051 * (i - 2), 0.02 * (i % 3)}, 0.05 * i}, {-40.0 * (i - 2), 0.0}, 0.0});
+  for (const LcpMatrix matrix : {LcpMatrix::full, LcpMatrix::near}) {
+    options.lcp_matrix = matrix;
+    OneStep start(row, options);
+    const Trial trial = RungeKutta(rk3_tableau()).attempt(start, 0.05);
+    REQUIRE(trial.failure == "");
+    REQUIRE(trial.stages.size() == 3);
+    for (const Stage& stage : trial.stages) {
+      CHECK(stage.solution.contacts.size() == 4);
+      CHECK(start.relative_gap(stage.solution.poses) >= 1.0 - 2.0 * options.contact_tolerance);
+      Wrench sum;
+      double scale = 0.0;
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const Wrench& w = stage.solution.wrenches[i];
+        sum.force += w.force;
+        sum.torque += w.torque + cross(stage.at->bodies()[i].pose.centre, w.force);
+        scale = std::max(scale, std::abs(w.force));
+      }
+      CHECK(std::abs(sum.force) <= 1e-14 * scale);
+      CHECK(std::abs(sum.torque) <= 1e-14 * scale);
+      for (const ActiveContact& c : stage.solution.contacts) CHECK(c.multiplier > 0.0);
+    }
   }
 }
 
