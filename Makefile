@@ -224,6 +224,8 @@ COUETTE_STEPS      = $(COUETTE:%=%_paper_ab2_250) $(COUETTE:%=%_paper_ab2_500)
 TG_ORDER_CASES     = $(foreach t,0.025 0.0125 0.00625 0.003125,euler_dt$(t)) $(foreach t,0.1 0.05 0.025,ab2_dt$(t)) \
                        $(foreach t,0.2 0.1 0.05 0.0125,rk3_dt$(t))
 REVERSAL_CASES     = euler ab2 rk3 midpoint
+RESOLVED_OBJECTS   = $(foreach t,0.04 0.01,$(foreach d,0 2 3,table1_delta$(d)h_dt$(t))) taylor_green injection couette
+RESOLVED_CASES     = $(foreach o,$(RESOLVED_OBJECTS),$(o)_points32 $(o)_accuracy1e-6)
 COUETTE_TABLES     = table2_order_parameter table3_effective_viscosity fig9_order_parameter fig10_effective_viscosity
 
 # $(call experiment,name,cases,quick cases,variants): `name` makes its cases, which decide the published numbers, and then
@@ -274,6 +276,7 @@ $(eval $(call experiment,fig6_injection,$(INJECTION_CASES),quick undisturbed,$(I
 $(eval $(call experiment,fig7_shear_stress,paper,))
 # Figure 7 is computed from the positions of Figure 6.
 $(RESULTS)/fig7_shear_stress/paper.csv: $(RESULTS)/fig6_injection/paper.csv
+$(eval $(call experiment,resolved,,,$(RESOLVED_CASES)))
 $(eval $(call experiment,adaptive_steps,,,$(ADAPTIVE_CASES)))
 
 couette_cases:  # their names, for experiments/submit_couette.sh

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "annulus.hpp"
-#include "experiment.hpp"
+#include "case_run.hpp"
 #include "packing.hpp"
 #include "rheology.hpp"
 
@@ -80,6 +80,26 @@ struct CouetteCase {
     return between_walls({placed.begin(), placed.end()}, couette_annulus());
   }
 };
+
+inline Case couette_case(const CouetteCase& chosen) {
+  Case c = case_between(couette_annulus());
+  c.points_per_body = chosen.variant == "points64" ? 64 : 32;
+  c.time_step = couette_revolution / chosen.suspension.steps_a_revolution;
+  if (chosen.variant == "halfstep") c.time_step /= 2.0;
+  if (chosen.variant == "quarterstep") c.time_step /= 4.0;
+  if (chosen.variant.starts_with("ab2_")) {
+    c.integrator = IntegratorKind::ab2;
+    c.time_step = couette_revolution / (chosen.variant == "ab2_250" ? 250 : 500);
+  }
+  c.end_time = (chosen.variant == "quick" ? 0.02 : chosen.suspension.revolutions) * couette_revolution;
+  c.min_separation_length = couette_separation;
+  c.contact = chosen.variant == "stiv" ? ContactModel::stiv : ContactModel::gap;
+  c.lcp_matrix = LcpMatrix::near;
+  c.refine = Refine::near;
+  c.gmres_tolerance = 1e-5;
+  c.output_every = 20;
+  return c;
+}
 
 // The results of couette_run beside those of another experiment.
 inline Results couette_results(const Results& other) { return {other.folder().parent_path(), "couette_run"}; }

@@ -10,7 +10,6 @@
 
 #include <cmath>
 
-#include "case_run.hpp"
 #include "couette.hpp"
 
 namespace {
@@ -30,26 +29,6 @@ std::vector<CouetteCase> all_cases() {
     for (const char* variant : {"ab2_250", "ab2_500"}) cases.push_back({s, 0, variant});
   for (const char* variant : {"halfstep", "quarterstep"}) cases.push_back({couette_suspension("phi10_lambda1"), 0, variant});
   return cases;
-}
-
-Case case_of(const CouetteCase& chosen) {
-  Case c = case_between(couette_annulus());
-  c.points_per_body = chosen.variant == "points64" ? 64 : 32;
-  c.time_step = couette_revolution / chosen.suspension.steps_a_revolution;
-  if (chosen.variant == "halfstep") c.time_step /= 2.0;
-  if (chosen.variant == "quarterstep") c.time_step /= 4.0;
-  if (chosen.variant.starts_with("ab2_")) {
-    c.integrator = IntegratorKind::ab2;
-    c.time_step = couette_revolution / (chosen.variant == "ab2_250" ? 250 : 500);
-  }
-  c.end_time = (chosen.variant == "quick" ? 0.02 : chosen.suspension.revolutions) * couette_revolution;
-  c.min_separation_length = couette_separation;
-  c.contact = chosen.variant == "stiv" ? ContactModel::stiv : ContactModel::gap;
-  c.lcp_matrix = LcpMatrix::near;
-  c.refine = Refine::near;
-  c.gmres_tolerance = 1e-5;
-  c.output_every = 20;
-  return c;
 }
 
 // Over the steps from a time on.
@@ -125,7 +104,7 @@ void summarise(const CouetteCase& chosen, const RunSummary& run, const Results& 
 void run(const std::string& name, const Results& results) {
   const std::vector<CouetteCase> cases = all_cases();
   const CouetteCase& chosen = *std::find_if(cases.begin(), cases.end(), [&](const CouetteCase& c) { return c.name() == name; });
-  const RunSummary summary = simulate_case(write_case(name, case_of(chosen), chosen.bodies(), results), name);
+  const RunSummary summary = simulate_case(write_case(name, couette_case(chosen), chosen.bodies(), results), name);
   summarise(chosen, summary, results);
 }
 

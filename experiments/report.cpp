@@ -136,6 +136,22 @@ std::string couette_table(Inputs& inputs, const std::string& name, bool order_pa
   return table;
 }
 
+// Published, with 32 nodes a body, with resolved velocities.
+std::string resolved_table(Inputs& inputs) {
+  const Table* t = inputs.table("resolved/table");
+  if (!t) return row_of({missing_mark});
+  inputs.require_not_older(inputs.results() / "resolved/table.csv", inputs.results() / "resolved");
+  std::string table;
+  for (int row = 0; row < static_cast<int>(t->rows.size()); ++row) {
+    std::vector<std::string> cells;
+    for (const char* column : {"object", "quantity"}) cells.push_back(tex_text(t->text(row, t->column(column))));
+    for (const char* column : {"published", "points32", "accuracy1e-6"})
+      cells.push_back(tex_number(t->number(row, t->column(column)), "4g"));
+    table += row_of(cells);
+  }
+  return table;
+}
+
 std::string timing_table(Inputs& inputs) {
   std::string table;
   for (const fs::path& folder : folders(inputs.results()))
@@ -215,6 +231,7 @@ int run(Arguments& options) {
       {"table1", table1(inputs)},
       {"table2", couette_table(inputs, "table2_order_parameter", true)},
       {"table3", couette_table(inputs, "table3_effective_viscosity", false)},
+      {"resolved", resolved_table(inputs)},
       {"timing", timing_table(inputs)},
       {"bench", bench_table(inputs)},
       {"errata", errata(read_text_file(options["errata"], "the list of errata"))}};

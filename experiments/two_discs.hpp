@@ -20,6 +20,7 @@ struct TwoDiscs {
   std::optional<double> reverse_at;
   TimeCounting time_counting = TimeCounting::exact;
   bool adaptive = false;
+  double accuracy = 0.0;             // in place of 32 points each, if positive
   ContactModel contact = ContactModel::gap;
   Coupling coupling = Coupling::global;
   LcpMatrix lcp_matrix = LcpMatrix::full;
@@ -59,6 +60,7 @@ inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
   SimulationOptions options;
   options.stepper.flow = {parameters.flow, parameters.rate};
   options.stepper.points_per_body = disc_points;
+  options.stepper.accuracy = parameters.accuracy;
   options.stepper.separation = parameters.separation_over_h * disc_spacing;
   options.time_step = parameters.time_step;
   options.end_time = parameters.end_time;

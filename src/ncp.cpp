@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact_work.hpp"
 #include "contact_wrenches.hpp"
 #include "interruption.hpp"
 #include "lcp.hpp"
@@ -93,6 +94,9 @@ class Iteration {
     for (Candidate& c : candidates_) c.committed += c.multiplier, c.multiplier = 0.0;
   }
 
+  // What is wrong with the present motion.
+  std::string work_failure() const { return negative_work(wrenches_.bodies, motion_.velocity, free_.velocity); }
+
   // What is wrong with the mobilities: a fluid's are positive, and symmetric between forces (to a tenth, what
   // columns of few nodes or of an approximation may miss).
   std::string unphysical(bool check_symmetry) const {
@@ -101,16 +105,14 @@ class Iteration {
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(M(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint), " does not part them (mobility ",
-                      brief(M(l, l)), "): the points per body do not resolve so small a gap; try refine = near");
-    if (const double power = contact_power(); power < 0.0)
-      return concat("the contact forces do negative work (power ", brief(power), ") on the bodies, worst of them ",
-                    name(worst()->constraint), ": the points per body do not resolve so small a gap; try refine = near");
+                      brief(M(l, l)), "): the nodes do not resolve so small a gap; ", finer_nodes);
+    if (std::string work = work_failure(); !work.empty()) return work;
     for (Eigen::Index l = 0; check_symmetry && l < m; ++l)
       for (Eigen::Index k = 0; k < l; ++k)
         if (std::abs(M(l, k) - M(k, l)) > 0.1 * std::sqrt(M(l, l) * M(k, k)))
           return concat("the contacts of ", name(candidates_[l].constraint), " and of ", name(candidates_[k].constraint),
                         " act on each other by mobilities of ", brief(M(l, k)), " and ", brief(M(k, l)),
-                        ", which should be equal: the points per body do not resolve so small a gap; try refine = near");
+                        ", which should be equal: the nodes do not resolve so small a gap; ", finer_nodes);
     return {};
   }
 
@@ -256,14 +258,6 @@ class Iteration {
   // Rate of a value by the contact forces.
   double contact_rate(const ContactConstraint& c) const { return rate(c, motion_.velocity) - rate(c, free_.velocity); }
 
-  // Of the forces that were answered; zero without any.
-  double contact_power() const {
-    double power = 0.0;
-    for (const Candidate& c : candidates_)
-      if (mobility_.learns && c.multiplier > 0.0) power += c.multiplier * contact_rate(c.constraint);
-    return power;
-  }
-
   void learn_from_motion() {
     if (!mobility_.learns || before_.empty()) return;
     const auto m = static_cast<Eigen::Index>(known_.contacts.size());
@@ -400,6 +394,11 @@ NcpResult resolve_contacts(const Suspension& start, const Response& contact_free
     if (!result.failure.empty()) return result;
     ++result.iterations;
     iteration.update();
+  }
+  result.failure = iteration.work_failure();
+  if (!result.failure.empty()) {
+    result.unresolved = true;
+    return result;
   }
   result.solved = true;
   iteration.finish(result);

@@ -90,11 +90,13 @@ NodeMap::Value NodeMap::from_cluster(std::size_t k, double t) const {
   return {value.s / total_, value.first / total_, value.second / total_};
 }
 
-// The inverse, by Newton's method for sigma in t = w sinh(sigma), of which s is nearly linear around the cluster; kept
-// between bounds that it narrows.
+// The inverse, by Newton's method for sigma in t = w sinh(sigma), of which s is nearly linear around the cluster. Another
+// cluster on the way makes s steep there, so that Newton's steps may leap to and fro: they are kept between bounds that
+// they narrow, and one that does not halve the error is followed by a bisection.
 double NodeMap::distance_from_cluster(std::size_t k, double s) const {
   const double width = kernels_[k].width, sign = s < 0.0 ? -1.0 : 1.0;
   double low = 0.0, high = std::asinh(2.0 * pi / width), sigma = std::abs(s) / (2.0 * pi) * high;
+  double before = 4.0 * pi;
   for (int iteration = 0; iteration < 100; ++iteration) {
     const double t = sign * width * std::sinh(sigma);
     const Value value = from_cluster(k, t);
@@ -102,7 +104,8 @@ double NodeMap::distance_from_cluster(std::size_t k, double s) const {
     const double next = sigma + step;
     if (std::abs(step) <= 1e-9 * (1.0 + sigma)) return sign * width * std::sinh(next);  // what is left is its square
     (excess > 0.0 ? low : high) = sigma;
-    sigma = next > low && next < high ? next : 0.5 * (low + high);
+    sigma = next > low && next < high && std::abs(excess) < 0.5 * before ? next : 0.5 * (low + high);
+    before = std::abs(excess);
   }
   return sign * width * std::sinh(sigma);
 }

@@ -15,10 +15,6 @@ namespace {
 // Of a circle so many times larger a body sees a part.
 constexpr double large_circle = 4.0;
 
-// Of the flow that passes between two boundaries, parts so small beside the density that makes them are left out. Were they
-// larger, they would show where a symmetry of the bodies holds the number of iterations down.
-constexpr double negligible = 1e-3;
-
 // Within a body's length of its circumscribed circle.
 std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) {
   const double reach = 3.0 * body.shape->shape.circumradius();
@@ -28,16 +24,17 @@ std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) 
   return nodes;
 }
 
-// What passes between two boundaries, C = P Q^T but for singular values below `negligible`. Q, or P where C has more columns
+// What passes between two boundaries, C = P Q^T but for singular values below `negligible`, of flow
+// beside the density that makes it. Q, or P where C has more columns
 // than rows, has the singular vectors, at least one, be it zero: from C^T C = L L^T by a Cholesky factorisation that
 // pivots and ends early.
 struct Coupling {
   Eigen::MatrixXf P, Q;
 };
 
-Coupling coupling(const Matrix& C) {
+Coupling coupling(const Matrix& C, double negligible) {
   if (C.cols() > C.rows()) {
-    Coupling transposed = coupling(C.transpose());
+    Coupling transposed = coupling(C.transpose(), negligible);
     return {std::move(transposed.Q), std::move(transposed.P)};
   }
   Matrix gram = Matrix::Zero(C.cols(), C.cols());
@@ -61,12 +58,12 @@ Coupling coupling(const Matrix& C) {
   return {C.cast<float>() * Q, std::move(Q)};
 }
 
-// Connected by relative gaps below `tight`, the closest first as far as the limits allow. Pairs that these leave between
-// groups make one of their own. Members increase.
+// Connected by relative gaps below `tight`, the closest first as far as the limits allow: of a group, 6000 unknowns, and of
+// the factors of all groups, 2 GB. Pairs that the limits leave between groups make one of their own. Members increase.
 std::vector<std::vector<int>> joined(std::vector<ClosePair> pairs, const std::vector<PlacedShape>& boundaries) {
   constexpr double tight = 1e-3;
   constexpr std::size_t most_members = 8;
-  constexpr int most_unknowns = 2000;
+  constexpr double most_entries = 3.6e7, most_in_all = 2.5e8;
   std::erase_if(pairs, [](const ClosePair& p) { return !(p.relative_gap < tight); });
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const ClosePair& p, const ClosePair& q) { return p.relative_gap < q.relative_gap; });
@@ -75,10 +72,15 @@ std::vector<std::vector<int>> joined(std::vector<ClosePair> pairs, const std::ve
     return std::find_if(groups.begin(), groups.end(),
                         [boundary](const auto& g) { return std::binary_search(g.begin(), g.end(), boundary); });
   };
-  const auto fits = [&boundaries](const std::vector<int>& members) {
-    int unknowns = 0;
-    for (const int i : members) unknowns += 2 * boundaries[i].size();
-    return members.size() <= most_members && unknowns <= most_unknowns;
+  const auto entries = [&boundaries](const std::vector<int>& members) {
+    double unknowns = 0.0;
+    for (const int i : members) unknowns += 2.0 * boundaries[i].size();
+    return unknowns * unknowns;
+  };
+  double in_all = 0.0;
+  const auto fits = [&](const std::vector<int>& members, double replaced) {
+    return members.size() <= most_members && entries(members) <= most_entries &&
+           in_all - replaced + entries(members) <= most_in_all;
   };
   std::vector<std::vector<int>> between;
   for (const ClosePair& p : pairs) {
@@ -90,12 +92,17 @@ std::vector<std::vector<int>> joined(std::vector<ClosePair> pairs, const std::ve
     else
       members.push_back(p.j);
     std::sort(members.begin(), members.end());
-    if (fits(members)) {
+    double replaced = 0.0;
+    for (const auto& group : {a, b})
+      if (group != groups.end()) replaced += entries(*group);
+    if (fits(members, replaced)) {
       std::erase_if(groups, [&p](const std::vector<int>& g) {
         return std::binary_search(g.begin(), g.end(), p.i) || std::binary_search(g.begin(), g.end(), p.j);
       });
+      in_all += entries(members) - replaced;
       groups.push_back(std::move(members));
-    } else if (std::vector<int> both{std::min(p.i, p.j), std::max(p.i, p.j)}; fits(both)) {
+    } else if (std::vector<int> both{std::min(p.i, p.j), std::max(p.i, p.j)}; fits(both, 0.0)) {
+      in_all += entries(both);
       between.push_back(std::move(both));
     }
   }
@@ -106,7 +113,7 @@ std::vector<std::vector<int>> joined(std::vector<ClosePair> pairs, const std::ve
 }  // namespace
 
 Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
-                               const std::vector<ClosePair>& pairs, const BlockFunction& block)
+                               const std::vector<ClosePair>& pairs, double negligible, const BlockFunction& block)
     : kind_(kind), boundaries_(boundaries) {
   if (kind != PreconditionerKind::pair) return;
   const std::vector<std::vector<int>> groups = joined(pairs, boundaries);
@@ -119,14 +126,15 @@ Preconditioner::Preconditioner(PreconditionerKind kind, const std::vector<Placed
         }))
       others.push_back({p.i, p.j});
   pairs_.resize(others.size());
-  parallel_for(static_cast<long>(others.size()), [&](long n) { pairs_[n] = prepared(others[n], block); });
+  parallel_for(static_cast<long>(others.size()), [&](long n) { pairs_[n] = prepared(others[n], negligible, block); });
   std::erase_if(pairs_, [](const Pair& p) { return p.part.empty(); });
   pairs_of_.resize(boundaries.size());
   for (std::size_t n = 0; n < pairs_.size(); ++n)
     for (const int member : {pairs_[n].i, pairs_[n].j}) pairs_of_[member].push_back(static_cast<int>(n));
 }
 
-Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const BlockFunction& block) const {
+Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, double negligible,
+                                              const BlockFunction& block) const {
   Pair p;
   std::tie(p.i, p.j) = members;
   if (boundaries_[p.j].size() < boundaries_[p.i].size()) std::swap(p.i, p.j);
@@ -135,8 +143,8 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, const
   p.part = in_part ? nodes_beside(i, j) : all_nodes(j);
   if (p.part.empty()) return p;
   const std::vector<int> own = all_nodes(i);
-  auto [P_i, Q_i] = coupling(block(p.i, own, p.j, p.part));
-  auto [P_j, Q_j] = coupling(block(p.j, p.part, p.i, own));
+  auto [P_i, Q_i] = coupling(block(p.i, own, p.j, p.part), negligible);
+  auto [P_j, Q_j] = coupling(block(p.j, p.part, p.i, own), negligible);
   p.A = i.shape->solve_own(P_i);
   if (in_part)
     p.B = -2.0f * P_j;  // the inverse of a circle's block but for a few smooth modes

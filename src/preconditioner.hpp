@@ -13,7 +13,7 @@ namespace stokes {
 enum class PreconditionerKind {
   none,
   block,  // D^-1: each boundary's own block, by the inverse that its shape carries
-  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1), with 2 x 2 block systems solved to 1e-3. For the
+  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1), with 2 x 2 block systems solved approximately. For the
           // smallest gaps the same with groups of boundaries, solved exactly
 };
 
@@ -29,12 +29,13 @@ class Preconditioner {
   using BlockFunction =
       std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
-  // `pairs`: the close pairs, for PreconditionerKind::pair. Those below a relative gap of 1e-3 are joined to groups, the
-  // closest first, of up to 8 boundaries and 2000 unknowns, each with a dense factorisation. Of a large circle only the
-  // nodes beside the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), where N_i is the smaller number of
-  // nodes and r the rank of the interaction. There is no second term if j is a circle.
+  // `pairs`: the close pairs, for PreconditionerKind::pair. Of what passes between the two, singular values below
+  // `negligible` are left out. Pairs below a relative gap of 1e-3 are joined to groups, the closest first, of up to 8
+  // boundaries and 6000 unknowns, 2 GB for all, each with a dense factorisation. Of a large circle only the nodes beside
+  // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), where N_i is the smaller number of nodes and r the
+  // rank of the interaction. There is no second term if j is a circle.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
-                 const std::vector<ClosePair>& pairs, const BlockFunction& block);
+                 const std::vector<ClosePair>& pairs, double negligible, const BlockFunction& block);
 
   // out = M in, for densities of a set of boundaries in body frames. Pairs and groups count if all their members are in
   // the set. The result does not depend on the number of threads.
@@ -61,7 +62,7 @@ class Preconditioner {
     Eigen::PartialPivLU<Matrix> factors;
   };
 
-  Pair prepared(std::pair<int, int> members, const BlockFunction& block) const;
+  Pair prepared(std::pair<int, int> members, double negligible, const BlockFunction& block) const;
   Group factorised(std::vector<int> members, const BlockFunction& block) const;
   Change change(const Pair& pair, const BoundarySet& set, const Vector& own) const;
   Vector change(const Group& group, const BoundarySet& set, const Vector& own) const;

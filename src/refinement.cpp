@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "fronts.hpp"
+#include <limits>
 
 namespace stokes {
 
@@ -11,9 +10,6 @@ namespace {
 
 // Of the mobility across a gap.
 constexpr double largest_mobility_error = 0.1;
-
-// Across the gap, of the lubrication between the two curvatures.
-double mobility(const Front& f) { return std::pow(std::max(f.gap * f.curvature, 0.0), 1.5) / (3.0 * std::sqrt(2.0) * pi); }
 
 // The error of the mobility of an ellipse with N nodes at equal steps, as measured at a wall along a flank.
 double mobility_error(const Shape& shape, int points) {
@@ -23,15 +19,16 @@ double mobility_error(const Shape& shape, int points) {
 // Of a body with nodes of its own, those stay.
 bool has_own_nodes(const Body& body) { return body.points > 0; }
 
-// Beyond, W >= gap is wide enough for the equal steps.
-double cluster_reach(const Shape& shape, int points, double tolerance) {
-  return shape.circumradius() * std::log(1.0 / tolerance) / points;
-}
+// W in the boundary's parameter.
+double width(const Shape& shape, const Front& front) { return front.width / std::abs(shape.derivative(front.alpha)); }
+
+// What a node of a cluster of this width adds to the digits.
+double digits_of_node(double w) { return 0.5 * pi * pi / std::log(8.0 / w); }
 
 void add_cluster(const Shape& shape, const Front& front, double factor, double tolerance, Discretisation& nodes) {
-  const double digits = std::log(1.0 / tolerance), w = front.width / std::abs(shape.derivative(front.alpha));
-  if (w > digits / nodes.points) return;
-  const double count = factor * 2.0 / (pi * pi) * std::log(8.0 / w) * digits;
+  const double digits = factor * std::log(1.0 / tolerance), w = width(shape, front);
+  if (nodes.points * w > digits) return;
+  const double count = digits / digits_of_node(w);
   nodes.clusters.push_back({front.alpha, w, 2 * static_cast<int>(std::ceil(0.5 * count))});
 }
 
@@ -50,6 +47,21 @@ void merge(std::vector<NodeCluster>& clusters) {
   clusters = std::move(kept);
 }
 
+// With the N_0 asked for or, where clusters would be more than that, twice, four times, ... as many.
+Discretisation fewest_nodes(const Shape& shape, const std::vector<Front>& close, const Resolution& resolution,
+                            double tolerance) {
+  Discretisation fewest;
+  for (int points = resolution.points; fewest.points == 0 || points <= fewest.size(); points *= 2) {
+    Discretisation nodes{points, {}};
+    for (const Front& f : close)
+      add_cluster(shape, f, resolution.factor, std::min(tolerance, rate_tolerance(f.gap * f.curvature)), nodes);
+    merge(nodes.clusters);
+    if (fewest.points == 0 || nodes.size() <= fewest.size()) fewest = std::move(nodes);
+    if (fewest.clusters.empty()) break;
+  }
+  return fewest;
+}
+
 }  // namespace
 
 std::vector<Discretisation> equal_nodes(const Suspension& bodies, int points) {
@@ -66,18 +78,47 @@ std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, 
     const double flank = std::pow(body.shape.circumradius(), 2) / body.shape.inradius();
     const double least = mobility_error(body.shape, points) / largest_mobility_error;
     reach.push_back(has_own_nodes(body) ? -1.0
-                                        : std::max(cluster_reach(body.shape, points, tolerance),
+                                        : std::max(resolved_distance(body.shape, points, tolerance),
                                                    flank * std::pow(3.0 * std::sqrt(2.0) * pi * least, 2.0 / 3.0)));
   }
   reach.push_back(-1.0);  // the container
   const std::vector<Front> close = fronts(bodies, reach);
   for (const Front& f : close)
     while (nodes[f.boundary].points < 4 * points &&
-           mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) > largest_mobility_error * mobility(f))
+           mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) > largest_mobility_error * gap_mobility(f.gap * f.curvature))
       nodes[f.boundary].points *= 2;
   for (const Front& f : close) add_cluster(bodies[f.boundary].shape, f, 1.0, tolerance, nodes[f.boundary]);
   for (Discretisation& d : nodes) merge(d.clusters);
   return nodes;
+}
+
+double resolved_digits(const Shape& shape, const Discretisation& nodes, const Front& front) {
+  const double w = width(shape, front);
+  double most = nodes.points * w;
+  for (const NodeCluster& c : nodes.clusters)
+    if (std::abs(std::remainder(front.alpha - c.alpha, 2.0 * pi)) < c.width)
+      most = std::max(most, c.points * digits_of_node(std::min(w, c.width)));
+  return most;
+}
+
+double gap_mobility(double relative_gap) { return std::pow(std::max(relative_gap, 0.0), 1.5) / (3.0 * std::sqrt(2.0) * pi); }
+
+double resolved_distance(const Shape& shape, int points, double tolerance) {
+  return shape.circumradius() * std::log(1.0 / tolerance) / points;
+}
+
+std::vector<double> relative_sizes(const Suspension& bodies) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Body& body : bodies)
+    if (!body.fixed) smallest = std::min(smallest, body.shape.circumradius());
+  std::vector<double> sizes;
+  for (const Shape& shape : boundary_shapes(bodies)) sizes.push_back(std::max(1.0, shape.circumradius() / smallest));
+  return sizes;
+}
+
+double own_tolerance(double accuracy, double relative_size) {
+  constexpr double round_off = 1e-11;
+  return std::min(accuracy, std::max(accuracy / relative_size, round_off));
 }
 
 double rate_tolerance(double relative_gap) {
@@ -87,21 +128,20 @@ double rate_tolerance(double relative_gap) {
 
 ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance) {
   const std::vector<Shape> shapes = boundary_shapes(bodies);
-  ClusteredNodes result;
-  auto& nodes = result.nodes;
-  result.relative_gap.assign(shapes.size(), 2.0);
+  const std::vector<double> sizes = relative_sizes(bodies);
   std::vector<double> reach;
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    reach.push_back(resolution[i].factor *
+                    resolved_distance(shapes[i], resolution[i].points, own_tolerance(tolerance, sizes[i])));
+  std::vector<std::vector<Front>> close(shapes.size());
+  for (const Front& f : fronts(bodies, reach)) close[f.boundary].push_back(f);
+  ClusteredNodes result;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    nodes.push_back({resolution[i].points, {}});
-    reach.push_back(cluster_reach(shapes[i], resolution[i].points, tolerance));
+    result.nodes.push_back(fewest_nodes(shapes[i], close[i], resolution[i], own_tolerance(tolerance, sizes[i])));
+    double least = 2.0;
+    for (const Front& f : close[i]) least = std::min(least, std::max(f.gap * f.curvature, 1e-12));
+    result.relative_gap.push_back(least);
   }
-  for (const Front& f : fronts(bodies, reach)) {
-    const double of_rate = rate_tolerance(f.gap * f.curvature);
-    add_cluster(shapes[f.boundary], f, resolution[f.boundary].factor, std::min(tolerance, of_rate), nodes[f.boundary]);
-    double& least = result.relative_gap[f.boundary];
-    least = std::min(least, std::max(f.gap * f.curvature, 1e-12));
-  }
-  for (Discretisation& d : nodes) merge(d.clusters);
   return result;
 }
 

@@ -16,6 +16,7 @@
 
 #include <vector>
 
+#include "fronts.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -35,14 +36,22 @@ inline constexpr double near_tolerance = 1e-6;
 // search and a facing for each pair found.
 std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, double tolerance);
 
-// Nodes N_0 of a boundary, and what the rule for the nodes of its clusters is multiplied by.
+// By how many natural digits nodes resolve the flow between a boundary and what it has in front of it: velocities have
+// errors exp(-digits), with N_0 w digits of equal steps and pi^2 N_k / (2 ln(8/w)) of a cluster there.
+double resolved_digits(const Shape& shape, const Discretisation& nodes, const Front& front);
+// Mobility across a gap in units of its radius of curvature: (g kappa)^1.5 / (3 sqrt(2) pi).
+double gap_mobility(double relative_gap);
+// From this distance on W, at least the gap, is wide enough for equal steps.
+double resolved_distance(const Shape& shape, int points, double tolerance);
+
+// Nodes N_0 of a boundary, and what the digits that it needs by a tolerance are multiplied by.
 struct Resolution {
   int points;
   double factor = 1.0;
 };
 
-// The error of velocities at which the rate of a gap, which under a force is about (g kappa)^1.5 / (3 sqrt(2) pi) of what it is
-// without the other boundary, is known to about a hundredth. At least the round-off of rates.
+// The error of velocities at which the rate of a gap, which under a force is the gap_mobility of what it is without
+// the other boundary, is known to about a hundredth. At least the round-off of rates.
 double rate_tolerance(double relative_gap);
 
 struct ClusteredNodes {
@@ -50,8 +59,15 @@ struct ClusteredNodes {
   std::vector<double> relative_gap;  // the smallest gap of each boundary in units of its radius of curvature; 2 if none
 };
 
+// Circumradii of the bodies and the container in units of the smallest free body's, at least 1. A boundary R times as large
+// makes velocities R times as large: what it does to the smallest body is known to the accuracy of that body if its own
+// relative error is R times smaller.
+std::vector<double> relative_sizes(const Suspension& bodies);
+// That relative error, where it is more than round-off.
+double own_tolerance(double accuracy, double relative_size);
+
 // Nodes of every body and of the container, if there is one, each with the clusters that its resolution needs for the
-// tolerance and for the rates of the gaps (rate_tolerance).
+// own_tolerance and for the rates of the gaps (rate_tolerance), or more N_0 where these replace more nodes of clusters.
 ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance);
 
 }  // namespace stokes

@@ -1,11 +1,12 @@
-// Nodes, close evaluation and solver from an accuracy of the bodies' velocities, in units of the rate and size of what
-// drives them; and a solution that has been held against it.
+// Nodes, close evaluation and solver from an accuracy of the bodies' velocities, in units of the rate of what drives them
+// and of the size of the smallest body; and a solution that has been held against it.
 //
 // Each boundary begins with the nodes that it needs by itself and clusters at its contacts (refinement.hpp). The equations
 // are solved; where the density of a boundary still has modes at the end of its spectrum,
-//   tail = max_{|k| > 0.4 N} |eta_k| / max_{k > 0} |eta_k|,   100 tail^2 > accuracy
-// (velocities, smooth functionals of densities, are off by 1 to 150 tail^2), the boundary gets half as many nodes again and
-// the solution starts from the density moved to them, at most three times.
+//   tail = max_{|k| > 0.4 N} |eta_k| / max_{k > 0} |eta_k|,   1000 tail^2 (size / smallest size) > accuracy
+// (velocities, smooth functionals of densities, are off by 1 to 150 tail^2 of their size in pairs, by up to 1e4 tail^2 in
+// random drops), the boundary gets half as many nodes again and the solution starts from the density moved to them, at most
+// three times.
 #pragma once
 
 #include <functional>
@@ -63,10 +64,10 @@ struct ResolvedProblem {
   std::function<ComplexVector(const std::vector<Discretisation>&)> guess;
 };
 
-// With options.gmres_tolerance replaced by accuracy sqrt(G/2), G = g kappa being the smallest relative gap, at most accuracy
-// and at least 1e-12 and the round-off 2e-15/sqrt(G/2) of the equations. That is 4e-15/G in the velocities, the least
-// estimated error. `resolution`: of the boundaries, what an earlier solution ended with; empty: from their
-// shapes. It is changed to what was needed. The result does not depend on the number of threads.
+// With options.gmres_tolerance replaced by A sqrt(G/2), A being the accuracy over the largest relative size, G = g kappa the
+// smallest relative gap, at most A and at least 1e-12 and the round-off 2e-15/sqrt(G/2) of the equations. That is 4e-15/G
+// in the velocities, the least estimated error. `resolution`: of the boundaries, what an earlier solution ended with;
+// empty: from their shapes. It is changed to what was needed. The result does not depend on the number of threads.
 ResolvedSystem solve_to_accuracy(const ResolvedProblem& problem, double accuracy, StokesOptions options, ShapeCache& shapes,
                                  ShapeResolution& alone, std::vector<Resolution>& resolution);
 

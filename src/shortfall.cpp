@@ -11,18 +11,8 @@ namespace stokes {
 
 namespace {
 
-constexpr double prefactor = 1500.0;  // of the relative error of a gap's rate
+constexpr double least_error = 1e-6;  // of velocities, that matters to a pair
 constexpr double largest_of_pair = 0.1, largest_alone = 1e-3;
-
-// By how many natural digits a boundary resolves what it has in front of it.
-double digits(const Shape& shape, const Discretisation& nodes, const Front& front) {
-  const double w = front.width / std::abs(shape.derivative(front.alpha));
-  double most = nodes.points * w;
-  for (const NodeCluster& c : nodes.clusters)
-    if (std::abs(std::remainder(front.alpha - c.alpha, 2.0 * pi)) < c.width)
-      most = std::max(most, 0.5 * pi * pi * c.points / std::log(8.0 / std::min(w, c.width)));
-  return most;
-}
 
 }  // namespace
 
@@ -31,10 +21,11 @@ std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Di
   const int count = static_cast<int>(bodies.size());
   std::vector<double> reach;
   for (std::size_t i = 0; i < shapes.size(); ++i)
-    reach.push_back(shapes[i].circumradius() * std::log(prefactor / largest_of_pair) / nodes[i].points);
+    reach.push_back(resolved_distance(shapes[i], nodes[i].points, least_error));
   std::map<std::pair<int, int>, Shortfall> pairs;
   for (const Front& f : fronts(bodies, reach)) {
-    const double error = prefactor * std::exp(-digits(shapes[f.boundary], nodes[f.boundary], f));
+    const double missed = std::exp(-resolved_digits(shapes[f.boundary], nodes[f.boundary], f));
+    const double error = missed / gap_mobility(f.gap * f.curvature);
     const auto [i, j] = std::minmax(f.boundary, f.other);
     Shortfall& found = pairs.try_emplace({i, j}, Shortfall{i, j == count ? container_index : j, f.gap, 0.0}).first->second;
     found.error = std::max(found.error, error);
@@ -50,10 +41,10 @@ std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Di
 
 std::string describe(const Shortfall& s) {
   if (s.a == s.b)
-    return concat("the nodes of body ", s.a, " do not resolve its own form: the estimated error of its velocities is ", s.error,
+    return concat("the nodes of body ", s.a, " do not resolve its own form: the estimated error of its velocities is ", brief(s.error),
                   " of the rate; write accuracy = 1e-4 in place of points_per_body, or more points_per_body");
-  return concat("the nodes of ", pair_name(s.a, s.b), " do not resolve their gap of ", s.gap,
-                ": the estimated relative error of its rate is ", s.error,
+  return concat("the nodes of ", pair_name(s.a, s.b), " do not resolve their gap of ", brief(s.gap),
+                ": the estimated relative error of its rate is ", brief(s.error),
                 "; write accuracy = 1e-4 in place of points_per_body (and wall_points)");
 }
 

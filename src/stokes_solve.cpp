@@ -244,7 +244,7 @@ StokesSolution StokesSystem::sweep(const BackgroundFlow& flow, const std::vector
     apply(all_, density, change);
     residual -= change;
   }
-  Preconditioner(PreconditionerKind::block, boundaries_, {}, {}).apply(all_, residual, change);
+  Preconditioner(PreconditionerKind::block, boundaries_, {}, 0.0, {}).apply(all_, residual, change);
   density += change;
   finish(all_, density, solution);
   add_given_motion(flow, solution);

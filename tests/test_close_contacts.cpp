@@ -140,7 +140,7 @@ TEST_CASE("the multipole sum and the direct sum give the same velocities at a ga
 }
 
 TEST_CASE("a small disc in front of one up to 1e4 times as large keeps 1e-8 with nodes that grow like log of the ratio") {
-  std::vector<int> most;
+  std::vector<int> most;  // twice the digits, and twice the logarithm of the width
   for (const double ratio : {10.0, 1e2, 1e3, 1e4}) {
     CAPTURE(ratio);
     const Suspension discs{{{ratio, ratio}, {}}, {{1.0, 1.0}, {{0.0, ratio + 1.1}, 0.0}}};
@@ -151,7 +151,7 @@ TEST_CASE("a small disc in front of one up to 1e4 times as large keeps 1e-8 with
         solve_to_accuracy({discs, {FlowKind::extension}, {}, {}}, 1e-8, {}, shapes, alone, resolution);
     most.push_back(resolved.most_nodes());
     const StokesSolution fine = solution(discs, nodes_of(discs, 96, 1e-13, 1.5), FlowKind::extension);
-    CHECK(std::abs(resolved.solution.velocity[1].velocity - fine.velocity[1].velocity) < 1e-8 * ratio);
+    CHECK(std::abs(resolved.solution.velocity[1].velocity - fine.velocity[1].velocity) < 1e-8);
   }
-  CHECK(most[3] <= most[0] + 40);
+  CHECK(most[3] <= 4 * most[0]);
 }

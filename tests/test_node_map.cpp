@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <random>
 
 #include "curve.hpp"
 #include "discrete_shape.hpp"
@@ -43,6 +44,27 @@ TEST_CASE("the map of nodes runs around once, its derivatives are those of its v
     CHECK(worst < 4e-15);
     CHECK(slope < 1e-4);
     CHECK(bend < 1e-3);
+  }
+}
+
+// Newton's steps from the nearest cluster may leap over another one.
+TEST_CASE("the map inverts itself for any clusters, also where one stands on the way from another") {
+  std::mt19937_64 generator(1);
+  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  for (int trial = 0; trial < 100; ++trial) {
+    Discretisation nodes{32 + 2 * static_cast<int>(60 * uniform()), {}};
+    if (trial == 0) nodes = {162, {{4.192490, 1.891e-3, 128}, {4.549370, 8.654e-2, 70}}};
+    for (int k = 0; k < trial % 6; ++k)
+      nodes.clusters.push_back({2.0 * pi * uniform(), std::pow(10.0, -5.0 * uniform()), 10 + 2 * static_cast<int>(60 * uniform())});
+    const NodeMap map(nodes);
+    const int count = 3 * nodes.size();
+    const std::vector<MappedNode> mapped = map.at_equal_steps(count);
+    double worst = 0.0;
+    for (int k = 0; k < count; ++k)
+      worst = std::max(worst, std::abs(std::remainder(map.position(mapped[k].alpha) - 2.0 * pi * k / count, 2.0 * pi)) *
+                                  std::min(1.0, mapped[k].first));
+    CAPTURE(trial);
+    CHECK(worst < 1e-14);
   }
 }
 
