@@ -49,12 +49,13 @@ void merge(std::vector<NodeCluster>& clusters) {
 
 // With the N_0 asked for or, where clusters would be more than that, twice, four times, ... as many.
 Discretisation fewest_nodes(const Shape& shape, const std::vector<Front>& close, const Resolution& resolution,
-                            double tolerance) {
+                            double tolerance, double least_of_clusters) {
   Discretisation fewest;
   for (int points = resolution.points; fewest.points == 0 || points <= fewest.size(); points *= 2) {
     Discretisation nodes{points, {}};
     for (const Front& f : close)
-      add_cluster(shape, f, resolution.factor, std::min(tolerance, rate_tolerance(f.gap * f.curvature)), nodes);
+      add_cluster(shape, f, resolution.factor,
+                  std::max(least_of_clusters, std::min(tolerance, rate_tolerance(f.gap * f.curvature))), nodes);
     merge(nodes.clusters);
     if (fewest.points == 0 || nodes.size() <= fewest.size()) fewest = std::move(nodes);
     if (fewest.clusters.empty()) break;
@@ -84,8 +85,8 @@ std::vector<Discretisation> refined_nodes(const Suspension& bodies, int points, 
   reach.push_back(-1.0);  // the container
   const std::vector<Front> close = fronts(bodies, reach);
   for (const Front& f : close)
-    while (nodes[f.boundary].points < 4 * points &&
-           mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) > largest_mobility_error * gap_mobility(f.gap * f.curvature))
+    while (nodes[f.boundary].points < 4 * points && mobility_error(bodies[f.boundary].shape, nodes[f.boundary].points) >
+                                                        largest_mobility_error * gap_mobility(f.gap * f.curvature))
       nodes[f.boundary].points *= 2;
   for (const Front& f : close) add_cluster(bodies[f.boundary].shape, f, 1.0, tolerance, nodes[f.boundary]);
   for (Discretisation& d : nodes) merge(d.clusters);
@@ -126,7 +127,8 @@ double rate_tolerance(double relative_gap) {
   return std::max(relative * std::pow(relative_gap, 1.5), round_off);
 }
 
-ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance) {
+ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance,
+                               double least_of_clusters) {
   const std::vector<Shape> shapes = boundary_shapes(bodies);
   const std::vector<double> sizes = relative_sizes(bodies);
   std::vector<double> reach;
@@ -137,7 +139,8 @@ ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resol
   for (const Front& f : fronts(bodies, reach)) close[f.boundary].push_back(f);
   ClusteredNodes result;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    result.nodes.push_back(fewest_nodes(shapes[i], close[i], resolution[i], own_tolerance(tolerance, sizes[i])));
+    result.nodes.push_back(fewest_nodes(shapes[i], close[i], resolution[i], own_tolerance(tolerance, sizes[i]),
+                                        least_of_clusters));
     double least = 2.0;
     for (const Front& f : close[i]) least = std::min(least, std::max(f.gap * f.curvature, 1e-12));
     result.relative_gap.push_back(least);

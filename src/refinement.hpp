@@ -67,7 +67,9 @@ std::vector<double> relative_sizes(const Suspension& bodies);
 double own_tolerance(double accuracy, double relative_size);
 
 // Nodes of every body and of the container, if there is one, each with the clusters that its resolution needs for the
-// own_tolerance and for the rates of the gaps (rate_tolerance), or more N_0 where these replace more nodes of clusters.
-ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance);
+// own_tolerance and for the rates of the gaps (rate_tolerance), in clusters never below `least_of_clusters`; or more N_0 where
+// these replace more nodes of clusters.
+ClusteredNodes clustered_nodes(const Suspension& bodies, const std::vector<Resolution>& resolution, double tolerance,
+                               double least_of_clusters = 0.0);
 
 }  // namespace stokes

@@ -15,12 +15,13 @@ int next_points(int points) { return (points & (points - 1)) == 0 ? points / 2 *
 // Velocities answer to errors of the data e at a relative gap G with e / root(G) (a flux into the gap squeezes it).
 double root(double relative_gap) { return std::min(1.0, std::sqrt(0.5 * relative_gap)); }
 // Densities grow like 1 / root(G), and with them the round-off of the equations.
-double round_off(double relative_gap) { return 2e-15 / root(relative_gap); }
+double round_off(double relative_gap) { return 4e-15 / root(relative_gap); }
 
 // A density's tail shows what the flow excites, not what a force on the body would, and the error is the product of the
 // two. Nodes are therefore chosen with a margin, which tails correct only upwards. Of 400 random drops of 2 to 6 ellipses
 // with an accuracy of 1e-6 these numbers leave none with a larger error; 1.5, 1 and 100 leave one in six, without a sign.
 constexpr double first_factor = 2.5;      // of the digits
+constexpr double least_of_clusters = 5e-8;  // 18 digits with the margin, more than densities have
 constexpr double points_tolerance = 1e-3;  // of N_0: in a flow less smooth than shear, parts of the accuracy
 constexpr double tail_factor = 1000.0;
 
@@ -87,12 +88,13 @@ namespace {
 // Nodes, their close evaluation, and the tolerance of the solver.
 struct Choice {
   std::vector<Discretisation> nodes;
-  double gmres_tolerance, least_gap;
+  std::vector<double> relative_gap;
+  double gmres_tolerance;
 };
 
 Choice choice(const Suspension& bodies, const std::vector<Shape>& shapes, const std::vector<Resolution>& resolution,
               const std::vector<double>& sizes, double accuracy) {
-  auto [nodes, relative_gap] = clustered_nodes(bodies, resolution, accuracy);
+  auto [nodes, relative_gap] = clustered_nodes(bodies, resolution, accuracy, least_of_clusters);
   double least = 2.0, smallest = accuracy;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     least = std::min(least, relative_gap[i]);
@@ -103,7 +105,7 @@ Choice choice(const Suspension& bodies, const std::vector<Shape>& shapes, const 
     nodes[i].upsampling = disc ? 2 : close_upsampling(shapes[i], nodes[i], std::max(tolerance, 1e-13));
   }
   const double wanted = std::min(smallest * root(least), rate_tolerance(least));
-  return {std::move(nodes), std::max({wanted, round_off(least), 1e-12}), least};
+  return {std::move(nodes), std::move(relative_gap), std::max({wanted, round_off(least), 1e-12})};
 }
 
 // Half as many again. False where there are as many as may be: a tail that stays is round-off, also in the next step.
@@ -140,17 +142,19 @@ ResolvedSystem solve_to_accuracy(const ResolvedProblem& problem, double accuracy
     result.solution = result.system->solve(problem.flow, problem.wrenches, guess);
     iterations += result.solution.iterations;
     ++result.solves;
-    result.error = round_off(chosen.least_gap) / root(chosen.least_gap) * *std::max_element(sizes.begin(), sizes.end());
+    result.error = 0.0;
     result.unresolved.clear();
+    bool added = false;
+    const double largest = *std::max_element(sizes.begin(), sizes.end());
     const std::vector<double> tails = result.system->density_tails(result.solution.density);
     for (std::size_t i = 0; i < tails.size(); ++i) {
-      const double error = tail_factor * tails[i] * tails[i] * sizes[i];
+      const double of_round_off = round_off(chosen.relative_gap[i]) / root(chosen.relative_gap[i]) * largest;
+      const double of_nodes = tail_factor * tails[i] * tails[i] * sizes[i];
+      const double error = std::max(of_round_off, of_nodes);
       result.error = std::max(result.error, error);
       if (error > accuracy) result.unresolved.push_back(static_cast<int>(i));
+      if (error > accuracy && of_nodes > of_round_off && result.solves < most_solves) added |= add_nodes(resolution[i]);
     }
-    if (result.unresolved.empty() || result.solves == most_solves) break;
-    bool added = false;
-    for (const int i : result.unresolved) added |= add_nodes(resolution[i]);
     if (!added) break;
   }
   result.solution.iterations = iterations;

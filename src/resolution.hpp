@@ -50,7 +50,7 @@ struct ResolvedSystem {
   StokesSolution solution;            // its iterations are those of all solves
   int solves = 0;
   double error = 0.0;                 // estimated, of the velocities
-  std::vector<int> unresolved;        // boundaries whose tails are too large after the last solve
+  std::vector<int> unresolved;        // boundaries whose estimated error is larger than the accuracy after the last solve
 
   int clusters() const;
   int most_nodes() const;
@@ -65,7 +65,7 @@ struct ResolvedProblem {
 };
 
 // With options.gmres_tolerance replaced by A sqrt(G/2), A being the accuracy over the largest relative size, G = g kappa the
-// smallest relative gap, at most A and at least 1e-12 and the round-off 2e-15/sqrt(G/2) of the equations. That is 4e-15/G
+// smallest relative gap, at most A and at least 1e-12 and the round-off 4e-15/sqrt(G/2) of the equations. That is 8e-15/G
 // in the velocities, the least estimated error. `resolution`: of the boundaries, what an earlier solution ended with;
 // empty: from their shapes. It is changed to what was needed. The result does not depend on the number of threads.
 ResolvedSystem solve_to_accuracy(const ResolvedProblem& problem, double accuracy, StokesOptions options, ShapeCache& shapes,

@@ -16,7 +16,8 @@ constexpr double largest_of_pair = 0.1, largest_alone = 1e-3;
 
 }  // namespace
 
-std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Discretisation>& nodes, ShapeResolution& alone) {
+std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Discretisation>& nodes,
+                                  ShapeResolution& alone) {
   const std::vector<Shape> shapes = boundary_shapes(bodies);
   const int count = static_cast<int>(bodies.size());
   std::vector<double> reach;
@@ -41,8 +42,8 @@ std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Di
 
 std::string describe(const Shortfall& s) {
   if (s.a == s.b)
-    return concat("the nodes of body ", s.a, " do not resolve its own form: the estimated error of its velocities is ", brief(s.error),
-                  " of the rate; write accuracy = 1e-4 in place of points_per_body, or more points_per_body");
+    return concat("the nodes of body ", s.a, " do not resolve its own form: the estimated error of its velocities is ",
+                  brief(s.error), " of the rate; write accuracy = 1e-4 in place of points_per_body, or more points_per_body");
   return concat("the nodes of ", pair_name(s.a, s.b), " do not resolve their gap of ", brief(s.gap),
                 ": the estimated relative error of its rate is ", brief(s.error),
                 "; write accuracy = 1e-4 in place of points_per_body (and wall_points)");
