@@ -57,15 +57,17 @@ class NodeMap {
     double value(double t) const;
     double slope(double t) const;
   };
-  struct Value {
-    double s, first, second;  // of s and its derivatives with respect to alpha
+  struct Derivatives {
+    double first, second;  // of s with respect to alpha
   };
 
   double sum(double alpha) const;
-  Value from_cluster(std::size_t k, double t) const;
+  double from_cluster(std::size_t k, double t) const;
+  Derivatives derivatives(std::size_t k, double t) const;
   double distance_from_cluster(std::size_t k, double s) const;
 
   std::vector<Kernel> kernels_;
+  std::vector<double> between_;  // of each cluster, the integrals of all kernels up to it
   double total_ = 1.0;  // 1 + Sum q_k
   double start_ = 0.0;
 };

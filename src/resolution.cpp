@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fourier.hpp"
+#include "threads.hpp"
 
 namespace stokes {
 
@@ -98,12 +99,14 @@ Choice choice(const Suspension& bodies, const std::vector<Shape>& shapes, const 
   double least = 2.0, smallest = accuracy;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     least = std::min(least, relative_gap[i]);
+    smallest = std::min(smallest, own_tolerance(accuracy, sizes[i]));
+  }
+  parallel_for(static_cast<long>(shapes.size()), [&, &nodes = nodes, &relative_gap = relative_gap](long i) {
     const double own = own_tolerance(accuracy, sizes[i]);
-    smallest = std::min(smallest, own);
     const bool disc = shapes[i].a == shapes[i].b;
     const double tolerance = nodes[i].clusters.empty() ? 0.1 * std::sqrt(own) : own * root(relative_gap[i]);
     nodes[i].upsampling = disc ? 2 : close_upsampling(shapes[i], nodes[i], std::max(tolerance, 1e-13));
-  }
+  });
   const double wanted = std::min(smallest * root(least), rate_tolerance(least));
   return {std::move(nodes), std::move(relative_gap), std::max({wanted, round_off(least), 1e-12})};
 }
