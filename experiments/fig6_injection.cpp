@@ -5,8 +5,6 @@
 // The folder of a case holds a case file and its bodies, which `simulate` reads too, and the run; an interrupted run goes
 // on from its checkpoint. <case>_snapshots.csv has the bodies at the times of the published frames.
 
-#include <numeric>
-
 #include "injection.hpp"
 
 namespace {
@@ -74,15 +72,11 @@ void add_centres(const RecordedRun& run, std::size_t state, double time, Quantit
 
 // How far the free discs are from their starts in the last frame.
 void add_return(const RecordedRun& run, std::size_t last, Quantities& row) {
-  std::vector<double> distance;
-  for (int i = 0; i < free_count; ++i)
-    distance.push_back(std::abs(run.bodies()[last][i].pose.centre - run.bodies()[0][i].pose.centre));
+  const std::vector<double> distance = distances_from_start(run, last);
   const auto farthest = std::max_element(distance.begin(), distance.end()) - distance.begin();
   bool was_in_contact = false;
   for (std::size_t k = 0; k < last; ++k) was_in_contact |= run.in_contact(k, farthest);
-  row.push_back({"mean_return", std::accumulate(distance.begin(), distance.end(), 0.0) / free_count});
-  row.push_back({"median_return", median(distance)});
-  row.push_back({"largest_return", distance[farthest]});
+  add_returns(distance, row);
   row.push_back({"farthest_was_in_contact", was_in_contact ? 1.0 : 0.0});
 }
 
@@ -111,9 +105,7 @@ void report(const InjectionCase& chosen, const Suspension& start, const Recorded
   Quantities row = contacts_of(run);
   const std::vector<std::size_t> states = run.states_at(frame_times);
   for (std::size_t f = 0; f < states.size(); ++f) {
-    double touching = 0.0;
-    for (int i = 0; i < free_count; ++i) touching += run.in_contact(states[f], i);
-    row.push_back({concat("in_contact_at_", frame_times[f]), touching});
+    row.push_back({concat("in_contact_at_", frame_times[f]), discs_in_contact(run, states[f])});
     if (f > 0) add_centres(run, states[f], frame_times[f], row);
   }
   if (states.size() == frame_times.size()) add_return(run, states.back(), row);

@@ -6,6 +6,10 @@
 // h; dt = 0.08, delta = 0.25h.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
 #include "case_run.hpp"
 #include "packing.hpp"
 
@@ -65,6 +69,27 @@ inline Case injection_case(const Injection& parameters) {
   c.end_time = parameters.end_time;
   c.reverse_at = parameters.reverse_at;
   return c;
+}
+
+// How many free discs are in contact in the step from this state.
+inline double discs_in_contact(const RecordedRun& run, std::size_t state) {
+  double touching = 0.0;
+  for (int i = 0; i < free_count; ++i) touching += run.in_contact(state, i);
+  return touching;
+}
+
+// How far the free discs are from their starts in a state.
+inline std::vector<double> distances_from_start(const RecordedRun& run, std::size_t state) {
+  std::vector<double> distance;
+  for (int i = 0; i < free_count; ++i)
+    distance.push_back(std::abs(run.bodies()[state][i].pose.centre - run.bodies()[0][i].pose.centre));
+  return distance;
+}
+
+inline void add_returns(const std::vector<double>& distance, Quantities& row) {
+  row.push_back({"mean_return", std::accumulate(distance.begin(), distance.end(), 0.0) / free_count});
+  row.push_back({"median_return", median(distance)});
+  row.push_back({"largest_return", *std::max_element(distance.begin(), distance.end())});
 }
 
 }  // namespace stokes

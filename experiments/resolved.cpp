@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "couette.hpp"
 #include "injection.hpp"
@@ -35,6 +34,8 @@ std::vector<Table1Case> table1_cases() {
   return all;
 }
 
+const std::vector<std::string> long_objects = {"taylor_green", "injection", "couette"};
+const CouetteCase couette_start{couette_suspension("phi5_lambda3")};
 const std::vector<double> couette_places = {0.05, 0.1, 0.25};  // revolutions
 const std::vector<std::string> couette_quantities = {"order_parameter", "effective_viscosity"};
 
@@ -100,29 +101,20 @@ void run_injection(const std::string& name, const Results& results) {
   write_tracks(name, free_count, run, results);
   Quantities row = common(run);
   const std::vector<std::size_t> frames = run.states_at(frame_times);
-  for (std::size_t f = 0; f < frames.size(); ++f) {
-    double touching = 0.0;
-    for (int i = 0; i < free_count; ++i) touching += run.in_contact(frames[f], i);
-    row.push_back({concat("in_contact_at_", frame_times[f]), touching});
-  }
-  std::vector<double> distance;
-  for (int i = 0; i < free_count; ++i)
-    distance.push_back(std::abs(run.bodies()[frames.back()][i].pose.centre - run.bodies()[0][i].pose.centre));
-  row.push_back({"mean_return", std::accumulate(distance.begin(), distance.end(), 0.0) / free_count});
-  row.push_back({"median_return", median(distance)});
-  row.push_back({"largest_return", *std::max_element(distance.begin(), distance.end())});
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    row.push_back({concat("in_contact_at_", frame_times[f]), discs_in_contact(run, frames[f])});
+  add_returns(distances_from_start(run, frames.back()), row);
   results.write(name, row);
 }
 
 void run_couette(const std::string& name, const Results& results) {
-  const CouetteCase chosen{couette_suspension("phi5_lambda3")};
-  Case c = couette_case(chosen);
+  Case c = couette_case(couette_start);
   c.refine = Refine::none;
   c.output_every = 1;
   c.end_time = couette_places.back() * couette_revolution + c.time_step;  // with a step from the last place
-  const Suspension bodies = chosen.bodies();
+  const Suspension bodies = couette_start.bodies();
   const RecordedRun run = run_long(name, c, bodies, results);
-  write_tracks(name, static_cast<std::size_t>(chosen.suspension.count), run, results);
+  write_tracks(name, static_cast<std::size_t>(couette_start.suspension.count), run, results);
   Quantities row = common(run);
   for (const std::string& quantity : couette_quantities) {
     const std::vector<double> values = run.states(quantity.c_str());
@@ -191,18 +183,17 @@ void collect(const Results& results) {
   };
   for (const Table1Case& c : table1_cases())
     add(c.name(), "reversal_error", published_value("table1_reversibility", c.published(), "reversal_error"));
-  for (const char* object : {"taylor_green", "injection", "couette"})
+  for (const std::string& object : long_objects)
     for (const char* quantity :
          {"first_contact", "ncp_iterations", "smallest_gap", "unresolved_share_of_steps", "most_nodes"})
       add(object, quantity, std::nan(""));
   for (const char* quantity : {"in_contact_at_1.92", "in_contact_at_3.92", "mean_return", "median_return", "largest_return"})
     add("injection", quantity, published_value("fig6_injection", "paper", quantity));
-  const std::string suspension = CouetteCase{couette_suspension("phi5_lambda3")}.name();
   for (const std::string& quantity : couette_quantities)
     for (const double place : couette_places) {
       const std::string at = concat(quantity, "_at_", place);
       const std::string figure = quantity == "order_parameter" ? "fig9_order_parameter" : "fig10_effective_viscosity";
-      add("couette", at, published_value(figure, suspension, at));
+      add("couette", at, published_value(figure, couette_start.name(), at));
     }
   const std::map<std::string, std::vector<double>> times = {
       {"taylor_green", {2.5, 5.0, 7.5, 10.0}}, {"injection", {3.92, 7.92}}, {"couette", {0.25 * couette_revolution}}};
@@ -219,7 +210,7 @@ std::vector<std::string> cases() {
   std::vector<std::string> names;
   for (const std::string& resolution : resolutions) {
     for (const Table1Case& c : table1_cases()) names.push_back(concat(c.name(), "_", resolution));
-    for (const char* object : {"taylor_green", "injection", "couette"}) names.push_back(concat(object, "_", resolution));
+    for (const std::string& object : long_objects) names.push_back(concat(object, "_", resolution));
   }
   return names;
 }

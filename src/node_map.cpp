@@ -66,8 +66,8 @@ NodeMap::NodeMap(const Discretisation& nodes) {
   }
   start_ = sum(0.0);
   for (Kernel& k : kernels_) k.position = position(k.alpha);
-  for (const Kernel& k : kernels_)
-    for (const Kernel& l : kernels_) between_.push_back(&k == &l ? 0.0 : l.integral(k.alpha - l.alpha));
+  for (std::size_t k = 0; k < kernels_.size(); ++k)
+    for (std::size_t l = 0; l < kernels_.size(); ++l) between_.push_back(kernels_[l].integral(apart(k, l)));
 }
 
 // Without the constant that makes s = 0 at alpha = 0.
@@ -79,24 +79,26 @@ double NodeMap::sum(double alpha) const {
 
 double NodeMap::position(double alpha) const { return kernels_.empty() ? alpha : sum(alpha) - start_; }
 
+double NodeMap::apart(std::size_t k, std::size_t l) const { return l == k ? 0.0 : kernels_[k].alpha - kernels_[l].alpha; }
+
 // s less that of cluster k, at the distance t from it in alpha.
 double NodeMap::from_cluster(std::size_t k, double t) const {
   double s = t;
-  for (std::size_t l = 0; l < kernels_.size(); ++l) {
-    const double apart = l == k ? 0.0 : kernels_[k].alpha - kernels_[l].alpha;
-    s += kernels_[l].share * (kernels_[l].integral(apart + t) - between_[k * kernels_.size() + l]);
-  }
+  for (std::size_t l = 0; l < kernels_.size(); ++l)
+    s += kernels_[l].share * (kernels_[l].integral(apart(k, l) + t) - between_[k * kernels_.size() + l]);
   return s / total_;
 }
 
-NodeMap::Derivatives NodeMap::derivatives(std::size_t k, double t) const {
-  Derivatives sum{1.0, 0.0};
-  for (std::size_t l = 0; l < kernels_.size(); ++l) {
-    const double apart = l == k ? 0.0 : kernels_[k].alpha - kernels_[l].alpha;
-    sum.first += kernels_[l].share * kernels_[l].value(apart + t);
-    sum.second += kernels_[l].share * kernels_[l].slope(apart + t);
-  }
-  return {sum.first / total_, sum.second / total_};
+double NodeMap::first_derivative(std::size_t k, double t) const {
+  double first = 1.0;
+  for (std::size_t l = 0; l < kernels_.size(); ++l) first += kernels_[l].share * kernels_[l].value(apart(k, l) + t);
+  return first / total_;
+}
+
+double NodeMap::second_derivative(std::size_t k, double t) const {
+  double second = 0.0;
+  for (std::size_t l = 0; l < kernels_.size(); ++l) second += kernels_[l].share * kernels_[l].slope(apart(k, l) + t);
+  return second / total_;
 }
 
 // The inverse, by Newton's method for sigma in t = w sinh(sigma), of which s is nearly linear around the cluster. Another
@@ -109,7 +111,7 @@ double NodeMap::distance_from_cluster(std::size_t k, double s) const {
   for (int iteration = 0; iteration < 100; ++iteration) {
     const double t = sign * width * std::sinh(sigma);
     const double excess = sign * (s - from_cluster(k, t));
-    const double step = excess / (derivatives(k, t).first * width * std::cosh(sigma));
+    const double step = excess / (first_derivative(k, t) * width * std::cosh(sigma));
     const double next = sigma + step;
     if (std::abs(step) <= 1e-9 * (1.0 + sigma)) return sign * width * std::sinh(next);  // what is left is its square
     (excess > 0.0 ? low : high) = sigma;
@@ -133,9 +135,9 @@ std::vector<MappedNode> NodeMap::at_equal_steps(int count) const {
       if (const double from = std::remainder(s - kernels_[k].position, 2.0 * pi); std::abs(from) < std::abs(way))
         way = from, nearest = k;
     const double t = distance_from_cluster(nearest, way), alpha = kernels_[nearest].alpha + t;
-    const Derivatives map = derivatives(nearest, t);
-    nodes[j] = {alpha - 2.0 * pi * std::floor(alpha / (2.0 * pi)), 1.0 / map.first,
-                -map.second / (map.first * map.first * map.first), static_cast<int>(nearest), t};
+    const double first = first_derivative(nearest, t), second = second_derivative(nearest, t);
+    nodes[j] = {alpha - 2.0 * pi * std::floor(alpha / (2.0 * pi)), 1.0 / first, -second / (first * first * first),
+                static_cast<int>(nearest), t};
   }
   return nodes;
 }

@@ -57,13 +57,12 @@ class NodeMap {
     double value(double t) const;
     double slope(double t) const;
   };
-  struct Derivatives {
-    double first, second;  // of s with respect to alpha
-  };
 
   double sum(double alpha) const;
+  double apart(std::size_t k, std::size_t l) const;  // cluster k, from cluster l, in alpha
   double from_cluster(std::size_t k, double t) const;
-  Derivatives derivatives(std::size_t k, double t) const;
+  double first_derivative(std::size_t k, double t) const;  // of s with respect to alpha
+  double second_derivative(std::size_t k, double t) const;
   double distance_from_cluster(std::size_t k, double s) const;
 
   std::vector<Kernel> kernels_;

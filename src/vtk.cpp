@@ -123,21 +123,23 @@ VtkWriter::VtkWriter(const std::filesystem::path& folder, int output_every)
     : folder_(made_folder(folder)), output_every_(output_every) {}
 
 VtkWriter::~VtkWriter() {
+  if (is_series_written_) return;
   try {
     write_series();
   } catch (const std::exception&) {  // the pictures are there, only their times are not listed
   }
 }
 
-void VtkWriter::write(const StepRecord& record) const {
+void VtkWriter::write(const StepRecord& record) {
   if (record.outcome && record.step % output_every_ != 0) return;
+  is_series_written_ = false;
   std::string number = std::to_string(record.step);
   number.insert(0, number.size() < 6 ? 6 - number.size() : 0, '0');
   write_file_atomically(folder_ / concat("step_", number, ".vtk"), vtk_file(record));
 }
 
 // The second line of a file is "step N, time T". Numbers of steps have leading zeros: more digits are later.
-void VtkWriter::write_series() const {
+void VtkWriter::write_series() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder_))
     if (const std::string name = entry.path().filename().string(); name.starts_with("step_") && name.ends_with(".vtk"))
@@ -158,6 +160,7 @@ void VtkWriter::write_series() const {
   }
   write_file_atomically(folder_.parent_path() / "run.vtk.series",
                         concat("{\"file-series-version\": \"1.0\", \"files\": [\n", join(entries, ",\n"), "\n]}\n"));
+  is_series_written_ = true;
 }
 
 }  // namespace stokes

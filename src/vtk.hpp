@@ -22,18 +22,19 @@ class VtkWriter {
   VtkWriter(const std::filesystem::path& folder, int output_every);
   VtkWriter(const VtkWriter&) = delete;
   VtkWriter& operator=(const VtkWriter&) = delete;
-  // Writes the series, without a complaint if it cannot: a run that ends early has other messages.
+  // Writes the series, if that has not been done, without a complaint if it cannot: a run that ends early has other messages.
   ~VtkWriter();
 
   // Replaces each file as a whole. NumericalError on a write error.
-  void write(const StepRecord& record) const;
+  void write(const StepRecord& record);
 
   // The same for the series of the files that are there, those of a run before an interruption included.
-  void write_series() const;
+  void write_series();
 
  private:
   std::filesystem::path folder_;
   int output_every_;
+  bool is_series_written_ = false;
 };
 
 }  // namespace stokes
