@@ -37,8 +37,8 @@ Response respond_to_contact(Configuration& at, const std::vector<Wrench>& wrench
   return at.respond(wrenches, past == histories.end() ? ComplexVector() : past->second.extrapolated(at.path(), at.nodes()));
 }
 
-ContactMobility full_mobility(Configuration& at, const ContactHistories& histories) {
-  return {[&](const auto& wrenches) { return respond_to_contact(at, wrenches, histories); }, {}, {}};
+ContactResponseFactory full_columns(Configuration& at, const ContactHistories& histories) {
+  return superposed([&](const auto& wrenches) { return respond_to_contact(at, wrenches, histories); });
 }
 
 // The response that moves the iterates of an approximate matrix, a part of the motion as a whole.
@@ -62,21 +62,15 @@ Response respond_to_all(Configuration& at, const std::vector<std::vector<Wrench>
 class FullMatrix : public ContactMatrix {
  public:
   NcpResult resolve(Configuration& at, const ContactSolver& solve, const NcpOptions& options) override {
-    return solve(full_mobility(at, histories_), options);
+    return solve(full_columns(at, histories_), options);
   }
 
   // By the columns that resolve() asks for, too.
   Response respond(Configuration& at, const std::vector<std::vector<Wrench>>& units,
                    const std::vector<double>& multipliers) override {
     Response sum{std::vector<RigidVelocity>(at.bodies().size()), ComplexVector::Zero(at.system().node_count())};
-    for (std::size_t k = 0; k < units.size(); ++k) {
-      const Response column = respond_to_contact(at, units[k], histories_);
-      for (std::size_t i = 0; i < sum.velocity.size(); ++i) {
-        sum.velocity[i].velocity += multipliers[k] * column.velocity[i].velocity;
-        sum.velocity[i].omega += multipliers[k] * column.velocity[i].omega;
-      }
-      sum.density += multipliers[k] * column.density;
-    }
+    for (std::size_t k = 0; k < units.size(); ++k)
+      add(sum, multipliers[k], respond_to_contact(at, units[k], histories_));
     return sum;
   }
 
@@ -124,16 +118,16 @@ class NearMatrix : public ContactMatrix {
   NcpResult resolve(Configuration& at, const ContactSolver& solve, const NcpOptions& options) override {
     NcpOptions at_first = options;
     at_first.max_iterations = std::min(options.max_iterations, nearby_iterations);
-    NcpResult result = solve(mobility(at, latest_), at_first);
+    NcpResult result = solve(nearby(at, latest_), at_first);
     if (!result.solved && !latest_.known.contacts.empty()) {
       latest_ = {};
       at.effort().ncp_iterations += result.iterations;
-      result = solve(mobility(at, latest_), at_first);
+      result = solve(nearby(at, latest_), at_first);
     }
     if (!result.solved) {
       at.effort().ncp_iterations += result.iterations;
       const ContactHistories none;
-      result = solve(full_mobility(at, none), options);
+      result = solve(full_columns(at, none), options);
     }
     if (result.solved) learn(at, result);
     return result;
@@ -160,13 +154,12 @@ class NearMatrix : public ContactMatrix {
     static Memory restored(StateReader& reader);
   };
 
-  ContactMobility mobility(Configuration& at, const Memory& memory) const {
-    const MobilityFunction nearby = [&at](const auto& wrenches) { return at.respond_nearby(wrenches); };
-    ContactMobility result{nearby, full_response(at), learns_};
-    if (!learns_) return result;  // the forces of interference volumes are others at every iterate
-    result.known = memory.known;
-    for (const Density& answer : memory.answers) result.answers.push_back(answer.on(at.nodes()));
-    return result;
+  ContactResponseFactory nearby(Configuration& at, const Memory& memory) const {
+    const MobilityFunction column = [&at](const auto& wrenches) { return at.respond_nearby(wrenches); };
+    if (!learns_) return solved(column, full_response(at));  // the forces of interference volumes are others at every iterate
+    std::vector<ComplexVector> answers;
+    for (const Density& answer : memory.answers) answers.push_back(answer.on(at.nodes()));
+    return learned(column, full_response(at), memory.known, std::move(answers));
   }
 
   void learn(const Configuration& at, NcpResult& result) {
@@ -220,7 +213,7 @@ class SelfMatrix : public ContactMatrix {
   // Locally coupled, the bodies also move as if they were alone.
   NcpResult resolve(Configuration& at, const ContactSolver& solve, const NcpOptions& options) override {
     const MobilityFunction alone = [&at](const auto& wrenches) { return at.respond_alone(wrenches); };
-    return solve({alone, coupling_ == Coupling::local ? ResponseFunction{} : full_response(at)}, options);
+    return solve(coupling_ == Coupling::local ? superposed(alone) : solved(alone, full_response(at)), options);
   }
   Response respond(Configuration& at, const std::vector<std::vector<Wrench>>& units,
                    const std::vector<double>& multipliers) override {

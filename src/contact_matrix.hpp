@@ -14,8 +14,8 @@
 
 namespace stokes {
 
-// The contact problem of a step with a given matrix.
-using ContactSolver = std::function<NcpResult(const ContactMobility&, const NcpOptions&)>;
+// Solves the contact problem of a step with given responses.
+using ContactSolver = std::function<NcpResult(const ContactResponseFactory&, const NcpOptions&)>;
 
 class ContactMatrix {
  public:

@@ -51,8 +51,8 @@ ContactSolution ContactProblem::solve(const Suspension& start, Configuration& at
   const auto resolve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
     return matrix_->resolve(
         at,
-        [&](const ContactMobility& mobility, const NcpOptions& how) {
-          return resolve_contacts(start, free, length, constraints, mobility, how, balance);
+        [&](const ContactResponseFactory& response, const NcpOptions& how) {
+          return resolve_contacts(start, free, length, constraints, response, how, balance);
         },
         options);
   };

@@ -14,25 +14,9 @@ namespace stokes {
 
 namespace {
 
-// A contact in the course of the iteration: its constraint at the current poses, and the force that its
-// multiplier now exerts with the column M' f of that force.
-struct Candidate {
-  ContactConstraint constraint;
-  GapGradient force{};
-  Response column{};       // empty where its rates are known already
-  double multiplier = 0.0;
-  double committed = 0.0;  // multipliers of forces that are no longer unknowns
-  double change = 0.0;     // of the multiplier, from the motion before to the present one
-  std::vector<double> answered{};  // multipliers, both kinds, of the known answers of the whole suspension
-
-  const GapGradient& gradient() const { return constraint.gradient; }
-  const GapGradient& start_gradient() const { return force; }
-};
-
 constexpr double largest_amplification = 1e6;  // a wedge that is as slim is a jam
 
 using Identity = KnownContacts::Contact;
-Identity identity(const ContactConstraint& c) { return {c.a, c.b, c.region}; }
 
 std::string name(const ContactConstraint& c) {
   return concat(pair_name(c.a, c.b), " (constraint ", brief(c.value), ", tolerance ", brief(c.tolerance), ")");
@@ -40,15 +24,10 @@ std::string name(const ContactConstraint& c) {
 
 class Iteration {
  public:
-  Iteration(const Suspension& start, const Response& contact_free, double dt, const ConstraintFunction& constraints,
-            const ContactMobility& mobility, const BalanceFunction& balance)
-      : start_(start), free_(contact_free), dt_(dt), constraints_(constraints), mobility_(mobility), balance_(balance),
-        base_(contact_free), base_wrenches_{std::vector<Wrench>(start.size()), {}} {
-    for (std::size_t i = 0; i < start.size(); ++i)
-      if (start[i].fixed) fixed_.push_back(static_cast<int>(i));
-    known_ = mobility.known;
-    answers_ = mobility.answers;
-  }
+  Iteration(const ContactStep& step, const ConstraintFunction& constraints, const ContactResponseFactory& response,
+            const BalanceFunction& balance)
+      : step_(step), constraints_(constraints), balance_(balance), fixed_(step.fixed()), response_(response(step)),
+        base_wrenches_{std::vector<Wrench>(step.start.size()), {}} {}
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
   void update() {
@@ -58,18 +37,18 @@ class Iteration {
       tracked.push_back({c.constraint.a, c.constraint.b});
       c.constraint.value = 0.0;  // a contact that is no longer found has opened
     }
-    // Known contacts take part from the start.
     if (candidates_.empty())
-      for (const Identity& c : known_.contacts) tracked.push_back({c.a, c.b});
+      for (const Identity& c : response_->expected()) tracked.push_back({c.a, c.b});
     tracked.erase(std::unique(tracked.begin(), tracked.end()), tracked.end());
     for (const ContactConstraint& found : constraints_(poses_, tracked)) {
-      const auto place = place_of(identity(found));
+      const auto place = std::lower_bound(candidates_.begin(), candidates_.end(), identity(found),
+                                          [](const Candidate& c, const Identity& i) { return identity(c.constraint) < i; });
       if (place != candidates_.end() && identity(place->constraint) == identity(found))
         place->constraint = found;
       else
-        candidates_.insert(place, {.constraint = found, .force = found.force, .answered = known_multipliers(identity(found))});
+        candidates_.insert(place, {.constraint = found, .force = found.force});
     }
-    learn_from_motion();
+    response_->observe(candidates_);
   }
 
   // The candidate farthest from what is required of it, or none when all are within tolerance.
@@ -90,18 +69,58 @@ class Iteration {
 
   // From here on the present forces stay, and the unknowns are what is added to them.
   void commit() {
-    base_ = motion_, base_wrenches_ = wrenches_;
+    response_->commit(motion_);
+    base_wrenches_ = wrenches_;
     for (Candidate& c : candidates_) c.committed += c.multiplier, c.multiplier = 0.0;
   }
 
   // What is wrong with the present motion.
-  std::string work_failure() const { return negative_work(wrenches_.bodies, motion_.velocity, free_.velocity); }
+  std::string work_failure() const {
+    return negative_work(wrenches_.bodies, motion_.velocity, step_.contact_free.velocity);
+  }
 
+  // One LCP for the multipliers; its failure, if any.
+  std::string solve(const NcpOptions& options, bool& unresolved) {
+    const Eigen::Index m = static_cast<Eigen::Index>(candidates_.size());
+    const Vector b = response_->values_without_forces(candidates_);
+    if (const std::string problem = unphysical(options.check_mobility && response_->exact()); !problem.empty()) {
+      unresolved = true;
+      return problem;
+    }
+    const Matrix B = step_.dt * response_->rates(candidates_);
+    for (Eigen::Index l = 0; l < m; ++l)
+      if (!(B(l, l) > 0.0))
+        return concat("the contact force between ", name(candidates_[l].constraint),
+                      " does not part them at the end of the step (mobility ", B(l, l) / step_.dt,
+                      "): the step takes them past each other; try a smaller time_step");
+    const LcpResult lcp = solve_lcp(B, b);
+    if (const double size = amplification(B, b, lcp.z); size > largest_amplification)
+      return concat("jammed: the contact forces would have to be ", size, " times those that part a pair by itself, ",
+                    "against at most ", largest_amplification, ". Worst: ", name(worst()->constraint));
+    if (!lcp.solved) {
+      unresolved = !response_->exact();  // of columns that are not the fluid's own, a jam or not
+      return concat(lcp.message, " Worst: ", name(worst()->constraint));
+    }
+    for (Eigen::Index l = 0; l < m; ++l) candidates_[l].multiplier = lcp.z[l];
+    return {};
+  }
+
+  void finish(NcpResult& result) {
+    result.wrenches = std::move(wrenches_.bodies);
+    result.container_wrench = wrenches_.container;
+    for (const Candidate& c : candidates_)
+      if (c.total() > 0.0) result.contacts.push_back({c.constraint, c.total()});
+    result.known = response_->known(candidates_);
+    result.motion = std::move(motion_);
+    result.poses = std::move(poses_);
+  }
+
+ private:
   // What is wrong with the mobilities: a fluid's are positive, and symmetric between forces (to a tenth, what
   // columns of few nodes or of an approximation may miss).
   std::string unphysical(bool check_symmetry) const {
     const auto m = static_cast<Eigen::Index>(candidates_.size());
-    const Matrix M = mobility_.learns ? known_.rates : rates_by_columns(&Candidate::start_gradient);
+    const Matrix M = response_->rates_along_forces(candidates_);
     for (Eigen::Index l = 0; l < m; ++l)
       if (!(M(l, l) > 0.0))
         return concat("the contact force between ", name(candidates_[l].constraint), " does not part them (mobility ",
@@ -116,80 +135,13 @@ class Iteration {
     return {};
   }
 
-  // One LCP for the multipliers; its failure, if any.
-  std::string solve(const NcpOptions& options, bool& unresolved) {
-    const Eigen::Index m = static_cast<Eigen::Index>(candidates_.size());
-    Vector b(m);  // values less what the present forces did to them
-    for (Eigen::Index l = 0; l < m; ++l) b[l] = candidates_[l].constraint.value;
-    if (mobility_.learns) {
-      extend_known();
-      // It has learnt from answers whose errors it shows: columns anew.
-      if (!(known_.rates.diagonal().minCoeff() > 0.0)) {
-        known_ = {};
-        extend_known();
-      }
-      for (Eigen::Index k = 0; k < m; ++k) b -= dt_ * candidates_[k].multiplier * known_.rates.col(k);
-    } else {
-      for (Eigen::Index l = 0; l < m; ++l)
-        for (const Candidate& k : candidates_)
-          if (k.multiplier > 0.0) b[l] -= dt_ * k.multiplier * rate(candidates_[l].constraint, k.column.velocity);
-      for (Candidate& c : candidates_)
-        if (c.column.velocity.empty() || c.force != c.constraint.force) find_column(c);
-    }
-    if (const std::string problem = unphysical(options.check_mobility && !mobility_.response); !problem.empty()) {
-      unresolved = true;
-      return problem;
-    }
-    const Matrix B = dt_ * (mobility_.learns ? known_.rates : rates_by_columns(&Candidate::gradient));
-    for (Eigen::Index l = 0; l < m; ++l)
-      if (!(B(l, l) > 0.0))
-        return concat("the contact force between ", name(candidates_[l].constraint),
-                      " does not part them at the end of the step (mobility ", B(l, l) / dt_,
-                      "): the step takes them past each other; try a smaller time_step");
-    const LcpResult lcp = solve_lcp(B, b);
-    if (const double size = amplification(B, b, lcp.z); size > largest_amplification)
-      return concat("jammed: the contact forces would have to be ", size, " times those that part a pair by itself, ",
-                    "against at most ", largest_amplification, ". Worst: ", name(worst()->constraint));
-    if (!lcp.solved) {
-      unresolved = static_cast<bool>(mobility_.response);  // of columns that are not the fluid's own, a jam or not
-      return concat(lcp.message, " Worst: ", name(worst()->constraint));
-    }
-    for (Eigen::Index l = 0; l < m; ++l) {
-      candidates_[l].change = lcp.z[l] - candidates_[l].multiplier;
-      candidates_[l].multiplier = lcp.z[l];
-    }
-    return {};
-  }
-
-  void finish(NcpResult& result) {
-    result.wrenches = std::move(wrenches_.bodies);
-    result.container_wrench = wrenches_.container;
-    for (const Candidate& c : candidates_)
-      if (c.multiplier + c.committed > 0.0) result.contacts.push_back({c.constraint, c.multiplier + c.committed});
-    result.known = known_contacts();
-    result.motion = std::move(motion_);
-    result.poses = std::move(poses_);
-  }
-
- private:
-  double rate(const ContactConstraint& c, const std::vector<RigidVelocity>& velocity) const {
-    return rate_of(start_, c, c.gradient, velocity);
-  }
-
-  void add_motion(const Response& response, double factor) {
-    for (std::size_t i = 0; i < start_.size(); ++i) {
-      motion_.velocity[i].velocity += factor * response.velocity[i].velocity;
-      motion_.velocity[i].omega += factor * response.velocity[i].omega;
-    }
-    motion_.density += factor * response.density;
-  }
-
   // Balances the wrenches; true if that changes them by more than round-off.
   bool balance_changes() {
     if (!balance_) return false;
     std::vector<std::pair<int, int>> pairs;
     for (const Candidate& c : candidates_)
-      if (c.multiplier + c.committed > 0.0) pairs.push_back({c.constraint.a, c.constraint.b});
+      if (c.total() > 0.0) pairs.push_back({c.constraint.a, c.constraint.b});
+    if (pairs.empty()) return false;
     std::vector<Wrench> balanced = wrenches_.bodies;
     balance_(pairs, balanced, fixed_);
     double scale = 0.0, change = 0.0;
@@ -202,166 +154,28 @@ class Iteration {
     return true;
   }
 
-  std::vector<Candidate>::iterator place_of(const Identity& wanted) {
-    return std::lower_bound(candidates_.begin(), candidates_.end(), wanted,
-                            [](const Candidate& c, const Identity& i) { return identity(c.constraint) < i; });
-  }
-
-  std::vector<double> known_multipliers(const Identity& contact) const {
-    const Eigen::Index row = mobility_.known.find(contact);
-    std::vector<double> multipliers(answers_.size());
-    for (std::size_t j = 0; row >= 0 && j < mobility_.answers.size(); ++j)
-      multipliers[j] = mobility_.known.multipliers(row, static_cast<Eigen::Index>(j));
-    return multipliers;
-  }
-
-  void find_column(Candidate& c) {
-    c.force = c.constraint.force;
-    ContactWrenches unit{std::vector<Wrench>(start_.size()), {}};
-    unit.add(c.constraint, c.force, 1.0);
-    c.column = mobility_.column(unit.on_all_but(fixed_));
-  }
-
-  // Rates of all values, or of others with gradients to choose, by all columns.
-  Matrix rates_by_columns(const GapGradient& (Candidate::*gradient)() const) const {
-    const auto m = static_cast<Eigen::Index>(candidates_.size());
-    Matrix rates(m, m);
-    for (Eigen::Index l = 0; l < m; ++l)
-      for (Eigen::Index k = 0; k < m; ++k)
-        rates(l, k) = rate_of(start_, candidates_[l].constraint, (candidates_[l].*gradient)(), candidates_[k].column.velocity);
-    return rates;
-  }
-
-  // Rates of all candidates: those known, and by columns where they are not or where a force has changed.
-  void extend_known() {
-    const auto m = static_cast<Eigen::Index>(candidates_.size());
-    KnownContacts all{{}, Matrix(m, m), {}};
-    std::vector<Eigen::Index> known;
-    for (Candidate& c : candidates_) {
-      const bool changed = c.force != c.constraint.force;
-      known.push_back(changed ? -1 : known_.find(identity(c.constraint)));
-      if (known.back() < 0) find_column(c);
-      all.contacts.push_back(identity(c.constraint));
-    }
-    const auto by_column = [this](Eigen::Index l, Eigen::Index k) {
-      return rate(candidates_[l].constraint, candidates_[k].column.velocity);
-    };
-    for (Eigen::Index l = 0; l < m; ++l)
-      for (Eigen::Index k = 0; k <= l; ++k)
-        all.rates(l, k) = all.rates(k, l) = known[l] >= 0 && known[k] >= 0 ? known_.rates(known[l], known[k])
-                                            : known[l] >= 0                ? by_column(l, k)
-                                            : known[k] >= 0                ? by_column(k, l)
-                                                                           : 0.5 * (by_column(l, k) + by_column(k, l));
-    known_ = std::move(all);
-  }
-
-  // Rate of a value by the contact forces.
-  double contact_rate(const ContactConstraint& c) const { return rate(c, motion_.velocity) - rate(c, free_.velocity); }
-
-  void learn_from_motion() {
-    if (!mobility_.learns || before_.empty()) return;
-    const auto m = static_cast<Eigen::Index>(known_.contacts.size());
-    Vector change(m), changed(m), present(m), total(m);
-    for (Eigen::Index l = 0; l < m; ++l) {
-      const Candidate& c = *place_of(known_.contacts[l]);  // whose force moved something, so it is there
-      change[l] = c.change;
-      present[l] = c.multiplier;
-      changed[l] = rate(c.constraint, motion_.velocity) - rate(c.constraint, before_);
-      total[l] = contact_rate(c.constraint);
-    }
-    learn(known_.rates, change, changed, present);
-    learn(known_.rates, present, total, present);
-    before_.clear();
-  }
-
-  // Of the contacts that press, or did at the end of the step before.
-  KnownContacts known_contacts() const {
-    const std::size_t earlier = mobility_.answers.size();
-    std::vector<const Candidate*> kept;
-    KnownContacts result;
-    for (const Candidate& c : candidates_) {
-      const bool known = mobility_.learns ? known_.find(identity(c.constraint)) >= 0 : !c.column.velocity.empty();
-      if (!known || (c.multiplier == 0.0 && (earlier == 0 || c.answered[earlier - 1] == 0.0))) continue;
-      kept.push_back(&c);
-      result.contacts.push_back(identity(c.constraint));
-    }
-    const auto m = static_cast<Eigen::Index>(kept.size());
-    result.rates.resize(m, m);
-    result.multipliers.resize(m, static_cast<Eigen::Index>(earlier) + 1);
-    const auto by_column = [this](const Candidate& l, const Candidate& k) { return rate(l.constraint, k.column.velocity); };
-    for (Eigen::Index l = 0; l < m; ++l) {
-      for (Eigen::Index k = 0; k < m; ++k)
-        result.rates(l, k) = mobility_.learns ? known_.rates(known_.find(result.contacts[l]), known_.find(result.contacts[k]))
-                                              : 0.5 * (by_column(*kept[l], *kept[k]) + by_column(*kept[k], *kept[l]));
-      for (std::size_t j = 0; j < earlier; ++j) result.multipliers(l, static_cast<Eigen::Index>(j)) = kept[l]->answered[j];
-      result.multipliers(l, static_cast<Eigen::Index>(earlier)) = kept[l]->multiplier;
-    }
-    return result;
-  }
-
-  // The combination of known answers that is nearest to the present forces, changed by the columns to what they are.
-  ComplexVector expected_density() const {
-    const auto m = static_cast<Eigen::Index>(candidates_.size()), n = static_cast<Eigen::Index>(answers_.size());
-    Matrix answered(m, n);
-    Vector wanted(m), scale = Vector::Ones(m);
-    for (Eigen::Index l = 0; l < m; ++l) {
-      const Candidate& c = candidates_[l];
-      wanted[l] = c.multiplier + c.committed;
-      if (mobility_.learns) scale[l] = std::sqrt(known_.rates(l, l));
-      for (Eigen::Index j = 0; j < n; ++j) answered(l, j) = c.answered[j];
-    }
-    const Vector part = nearest_combination(answered, wanted, scale), rest = wanted - answered * part;
-    ComplexVector density = ComplexVector::Zero(free_.density.size());
-    for (Eigen::Index j = 0; j < n; ++j) density += part[j] * answers_[j];
-    for (Eigen::Index l = 0; l < m; ++l)
-      if (candidates_[l].column.density.size() > 0) density += rest[l] * candidates_[l].column.density;
-    return density;
-  }
-
   void move() {
     wrenches_ = base_wrenches_;
-    bool forced = false;
-    for (const Candidate& c : candidates_) {
-      forced = forced || c.multiplier + c.committed > 0.0;
+    for (const Candidate& c : candidates_)
       if (c.multiplier > 0.0) wrenches_.add(c.constraint, c.force, c.multiplier);
-    }
-    if (forced && mobility_.response) {
-      balance_changes();
-      const Response answer = mobility_.response(wrenches_.on_all_but(fixed_), expected_density());
-      answers_.push_back(answer.density);
-      for (Candidate& c : candidates_) c.answered.push_back(c.multiplier + c.committed);
-      before_ = std::move(motion_.velocity);
-      motion_ = free_;
-      add_motion(answer, 1.0);
-    } else if (forced && balance_changes()) {
-      motion_ = free_;
-      add_motion(mobility_.column(wrenches_.on_all_but(fixed_)), 1.0);
-    } else {
-      motion_ = base_;
-      for (const Candidate& c : candidates_)
-        if (c.multiplier > 0.0) add_motion(c.column, c.multiplier);
-    }
+    const bool balanced = balance_changes();
+    motion_ = response_->motion(candidates_, wrenches_.on_all_but(fixed_), balanced);
+    const Suspension& start = step_.start;
     poses_.clear();
-    for (std::size_t i = 0; i < start_.size(); ++i) {
+    for (std::size_t i = 0; i < start.size(); ++i) {
       const RigidVelocity& u = motion_.velocity[i];
-      const bool rests = start_[i].fixed && u.velocity == 0.0 && u.omega == 0.0;
-      poses_.push_back(rests ? start_[i].pose : advance(start_[i].pose, u, dt_));
+      const bool rests = start[i].fixed && u.velocity == 0.0 && u.omega == 0.0;
+      poses_.push_back(rests ? start[i].pose : advance(start[i].pose, u, step_.dt));
     }
   }
 
-  const Suspension& start_;
-  const Response& free_;
-  double dt_;
+  const ContactStep step_;
   const ConstraintFunction& constraints_;
-  const ContactMobility& mobility_;
   const BalanceFunction& balance_;
-  std::vector<int> fixed_;             // bodies
-  std::vector<Candidate> candidates_;  // sorted by pair and region
-  Response base_;                      // motion with the committed forces
-  ContactWrenches base_wrenches_;      // and these
-  KnownContacts known_;                // their rates: of all candidates once an LCP was solved
-  std::vector<ComplexVector> answers_; // densities of the whole suspension for contact forces
-  std::vector<RigidVelocity> before_;  // the motion that `change` of the multipliers made the present one of
+  const std::vector<int> fixed_;  // bodies
+  std::unique_ptr<ContactResponse> response_;
+  Candidates candidates_;
+  ContactWrenches base_wrenches_;  // of the committed forces
   Response motion_;
   ContactWrenches wrenches_;
   std::vector<Pose> poses_;
@@ -370,10 +184,10 @@ class Iteration {
 }  // namespace
 
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
-                           const ConstraintFunction& constraints, const ContactMobility& mobility,
+                           const ConstraintFunction& constraints, const ContactResponseFactory& response,
                            const NcpOptions& options, const BalanceFunction& balance) {
   NcpResult result;
-  Iteration iteration(start, contact_free, dt, constraints, mobility, balance);
+  Iteration iteration({start, contact_free, dt}, constraints, response, balance);
   double best = std::numeric_limits<double>::infinity();
   int without_progress = 0;
   iteration.update();

@@ -2,11 +2,7 @@
 //   q' = q + dt (u0 + M Sum_l lambda_l f_l),   0 <= value_l(q')  perp  lambda_l >= 0,
 // solved as a sequence of linear complementarity problems for the TOTAL multipliers:
 //   0 <= value_l - r_l + Sum_k B_lk lambda_k  perp  lambda_l >= 0,  B_lk = dt grad_l . M' f_k,
-// where M' is M or an approximation of it and r_l = dt grad_l . M' (present contact forces). With M' = M the
-// fluid is linear, so that once M f_k is known an iteration costs no Stokes solve. Otherwise every iterate is moved
-// with M, and M' may learn from it: for the change s of the multipliers and the change y it made in the rates of the
-// constraints, and then for all multipliers and what they do, the smallest symmetric change is made after which
-// M' s = y. What it has learnt goes from step to step.
+// where M' is M or an approximation of it and r_l = dt grad_l . M' (present contact forces): contact_response.hpp.
 //
 // Fixed bodies have no mobility: they move as contact_free says, and the forces on them and on the container do
 // nothing to the fluid. They are reactions, only reported. Between obstacles a body may be jammed: then no forces
@@ -18,10 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "configuration.hpp"
-#include "contact.hpp"
-#include "known_contacts.hpp"
-#include "suspension.hpp"
+#include "contact_response.hpp"
 
 namespace stokes {
 
@@ -40,25 +33,12 @@ struct NcpOptions {
   // From this iteration on keep the forces found and solve for non-negative additions to them: ends the cycles
   // of a value that jumps. For constraints that count as met once they are open (stiv).
   int increments_after = std::numeric_limits<int>::max();
-  bool check_mobility = false;  // columns for symmetry: the forces are to be gradients at the start of the step
+  bool check_mobility = false;  // exact columns for symmetry: the forces are to be gradients at the start of the step
 };
 
 // Violated and tracked constraints at trial poses (GapCollector::collect).
 using ConstraintFunction =
     std::function<std::vector<ContactConstraint>(const std::vector<Pose>&, const std::vector<std::pair<int, int>>&)>;
-// M f: the response of the suspension to given forces and torques, zero for fixed bodies.
-using MobilityFunction = std::function<Response(const std::vector<Wrench>&)>;
-
-// The same, solved from the density `guess`.
-using ResponseFunction = std::function<Response(const std::vector<Wrench>&, const ComplexVector& guess)>;
-
-struct ContactMobility {
-  MobilityFunction column;      // M' f for the LCP matrix
-  ResponseFunction response{};  // M f for the motion; empty if M' = M, whose columns then superpose
-  bool learns = false;          // M' does, from the answers M f
-  KnownContacts known{};        // what it begins with
-  std::vector<ComplexVector> answers{};  // the densities of known.multipliers
-};
 
 struct NcpResult {
   bool solved = false;
@@ -70,7 +50,7 @@ struct NcpResult {
   Response motion;                     // what moves the bodies there
   std::vector<Wrench> wrenches;        // contact force and torque on each body, fixed or not
   Wrench container_wrench;             // and on the container, about its centre
-  KnownContacts known;                 // whose newest multipliers are those of the motion
+  KnownContacts known;                 // of a learned response; the newest multipliers are those of the motion
 };
 
 // Accepted are poses at which no constraint is violated by more than its tolerance and every contact with
@@ -79,7 +59,7 @@ struct NcpResult {
 // them by more than round-off. Failure is reported, with what was reached, not thrown; an Interruption when a signal asks
 // for it is.
 NcpResult resolve_contacts(const Suspension& start, const Response& contact_free, double dt,
-                           const ConstraintFunction& constraints, const ContactMobility& mobility,
+                           const ConstraintFunction& constraints, const ContactResponseFactory& response,
                            const NcpOptions& options, const BalanceFunction& balance = {});
 
 }  // namespace stokes

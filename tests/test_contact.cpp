@@ -33,11 +33,10 @@ Pairs pairs_of(const std::vector<ContactConstraint>& contacts) {
 // definite, and simple enough that positions after a contact are known in closed form.
 struct Bed {
   int columns = 0;
-  ContactMobility mobility{[this](const std::vector<Wrench>& wrenches) {
-                             ++columns;
-                             return respond(wrenches);
-                           },
-                           {}};
+  ContactResponseFactory response = superposed([this](const std::vector<Wrench>& wrenches) {
+    ++columns;
+    return respond(wrenches);
+  });
 
   static Response respond(const std::vector<Wrench>& wrenches) {
     Response response;
@@ -57,7 +56,7 @@ NcpResult resolve(const Suspension& start, const std::vector<RigidVelocity>& vel
                   double separation, const NcpOptions& options = {}) {
   Bed bed;
   const GapCollector collector(start, separation);
-  return resolve_contacts(start, moving(velocity), dt, constraints_of(collector), bed.mobility, options);
+  return resolve_contacts(start, moving(velocity), dt, constraints_of(collector), bed.response, options);
 }
 
 void add(std::vector<Wrench>& wrenches, const ActiveContact& contact) {
@@ -329,7 +328,7 @@ TEST_CASE("each contact costs one mobility problem, however many iterations ther
           if (std::find(seen.begin(), seen.end(), pair) == seen.end()) seen.push_back(pair);
         return found;
       },
-      bed.mobility, {});
+      bed.response, {});
   REQUIRE(result.solved);
   CHECK(result.iterations > 1);
   CHECK(bed.columns <= static_cast<int>(seen.size()));
@@ -348,8 +347,8 @@ TEST_CASE("an approximate mobility in the matrix changes the iterations, not the
     for (RigidVelocity& u : response.velocity) u.velocity *= 1.5, u.omega *= 1.5;
     return response;
   };
-  const NcpResult full = resolve_contacts(start, free, 0.5, constraints, {exact, {}}, {});
-  const NcpResult approximate = resolve_contacts(start, free, 0.5, constraints, {stronger, whole}, {});
+  const NcpResult full = resolve_contacts(start, free, 0.5, constraints, superposed(exact), {});
+  const NcpResult approximate = resolve_contacts(start, free, 0.5, constraints, solved(stronger, whole), {});
   REQUIRE(full.solved);
   REQUIRE(approximate.solved);
   CHECK(approximate.iterations > full.iterations);
@@ -374,7 +373,7 @@ TEST_CASE("a contact problem that is given up says how far it came and between w
   };
   const GapCollector collector(start, 0.5);
   const NcpResult wrong =
-      resolve_contacts(start, moving(velocity), 1.0, constraints_of(collector), {adhesive, {}}, {});
+      resolve_contacts(start, moving(velocity), 1.0, constraints_of(collector), superposed(adhesive), {});
   CHECK_FALSE(wrong.solved);
   CHECK(wrong.failure.find("bodies 1 and 2") != std::string::npos);
 }
@@ -391,10 +390,10 @@ TEST_CASE("without progress the contact problem is given up early only when prog
     return response;
   };
   const Response free = moving({{1.0, 0.0}, {-1.0, 0.0}});
-  const NcpResult patient = resolve_contacts(start, free, 0.5, constraints, {slow, exact}, {1000, false});
+  const NcpResult patient = resolve_contacts(start, free, 0.5, constraints, solved(slow, exact), {1000, false});
   CHECK(patient.solved);
   CHECK(patient.iterations > 50);
-  const NcpResult demanding = resolve_contacts(start, free, 0.5, constraints, {slow, exact}, {1000, true});
+  const NcpResult demanding = resolve_contacts(start, free, 0.5, constraints, solved(slow, exact), {1000, true});
   CHECK_FALSE(demanding.solved);
   CHECK(demanding.iterations == 2);
 }

@@ -32,11 +32,10 @@ TEST_CASE("contact forces that pull bodies against themselves end the contact pr
   };
   for (const double sign : {1.0, -1.0})
     for (const bool learns : {false, true}) {
-      ContactMobility mobility;
-      mobility.column = [&](const auto& w) { return answer(w, 0.9); };
-      mobility.response = [&](const auto& w, const ComplexVector&) { return answer(w, sign); };
-      mobility.learns = learns;
-      const NcpResult result = resolve_contacts(discs, contact_free, 0.1, constraints, mobility, {});
+      const auto column = [&](const auto& w) { return answer(w, 0.9); };
+      const auto response = [&](const auto& w, const ComplexVector&) { return answer(w, sign); };
+      const NcpResult result = resolve_contacts(discs, contact_free, 0.1, constraints,
+                                                learns ? learned(column, response, {}, {}) : solved(column, response), {});
       CHECK(result.solved == (sign > 0.0));
       CHECK(result.unresolved == (sign < 0.0));
       if (sign < 0.0) CHECK(result.failure.find(finer_nodes) != std::string::npos);

@@ -237,18 +237,17 @@ TEST_CASE("answers to contact forces start from the nearest combination of known
   };
   std::vector<Complex> guesses;
   int columns = 0;
-  ContactMobility mobility;
-  mobility.column = [&](const auto& w) { return ++columns, answer(w, 0.9, 3.0); };  // nearly the one that moves the bodies
-  mobility.response = [&](const auto& w, const ComplexVector& guess) {
+  const auto column = [&](const auto& w) { return ++columns, answer(w, 0.9, 3.0); };  // nearly the one that moves the bodies
+  const auto response = [&](const auto& w, const ComplexVector& guess) {
     guesses.push_back(guess[0]);
     return answer(w, 1.0, 2.0);
   };
-  const auto resolve = [&] {
+  const auto resolve = [&](const ContactResponseFactory& how) {
     guesses.clear();
     columns = 0;
-    return resolve_contacts(discs, contact_free, dt, constraints, mobility, {});
+    return resolve_contacts(discs, contact_free, dt, constraints, how, {});
   };
-  const NcpResult fresh = resolve();
+  const NcpResult fresh = resolve(solved(column, response));
   REQUIRE(fresh.solved);
   REQUIRE(fresh.contacts.size() == 1);
   // The gap of 0.2 would be 0; a force f on either disc gives back 2 dt f.
@@ -259,17 +258,13 @@ TEST_CASE("answers to contact forces start from the nearest combination of known
   REQUIRE(guesses.size() > 1);
   CHECK(std::abs(guesses[1] + 2.0 * (first + (0.5 - first) / 0.9)) < 1e-5);
 
-  mobility.known = {{{0, 1, 0}}, Matrix::Constant(1, 1, 2.0 * 0.9), Matrix::Constant(1, 1, 0.2)};
-  mobility.answers = {ComplexVector::Constant(1, 7.0)};
-  const NcpResult again = resolve();
-  REQUIRE(again.solved);
-  CHECK(std::abs(guesses[0] - 7.0 * first / 0.2) < 1e-4);
-  CHECK(again.contacts[0].multiplier == fresh.contacts[0].multiplier);
-  CHECK(again.iterations == fresh.iterations);
-
-  mobility.learns = true;
-  const NcpResult taught = resolve();
+  KnownContacts known{{{0, 1, 0}}, Matrix::Constant(1, 1, 2.0 * 0.9), Matrix::Constant(1, 1, 0.2)};
+  const auto resolve_knowing = [&] {
+    return resolve(learned(column, response, known, {ComplexVector::Constant(1, 7.0)}));
+  };
+  const NcpResult taught = resolve_knowing();
   REQUIRE(taught.solved);
+  CHECK(std::abs(guesses[0] - 7.0 * first / 0.2) < 1e-4);
   CHECK(columns == 0);  // its rate is known
   CHECK(taught.iterations == 2);
   REQUIRE(taught.known.contacts.size() == 1);
@@ -279,12 +274,12 @@ TEST_CASE("answers to contact forces start from the nearest combination of known
   CHECK(taught.known.multipliers(0, 0) == 0.2);
   CHECK(taught.known.multipliers(0, 1) == taught.contacts[0].multiplier);
 
-  mobility.known.rates = taught.known.rates;
-  CHECK(resolve().iterations == 1);
+  known.rates = taught.known.rates;
+  CHECK(resolve_knowing().iterations == 1);
 
   // A matrix that has lost its positive diagonal makes room for columns.
-  mobility.known.rates = Matrix::Constant(1, 1, -2.0);
-  const NcpResult anew = resolve();
+  known.rates = Matrix::Constant(1, 1, -2.0);
+  const NcpResult anew = resolve_knowing();
   CHECK(anew.failure == "");
   CHECK(columns == 1);
   CHECK(std::abs(anew.contacts.at(0).multiplier - 0.5) < 1e-4);

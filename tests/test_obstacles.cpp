@@ -77,7 +77,7 @@ NcpResult resolve(const Problem& p) {
   Bed bed{p.start};
   const Response free{p.velocity, ComplexVector::Zero(1)};
   const auto solve = [&](const ConstraintFunction& constraints, const BalanceFunction& balance) {
-    return resolve_contacts(p.start, free, p.dt, constraints, {[&](const auto& w) { return bed(w); }, {}}, p.options,
+    return resolve_contacts(p.start, free, p.dt, constraints, superposed([&](const auto& w) { return bed(w); }), p.options,
                             balance);
   };
   NcpResult result;
