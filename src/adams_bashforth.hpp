@@ -23,7 +23,7 @@ class AdamsBashforth : public Integrator {
   struct Before {
     double dt = 0.0;                              // 0: none
     std::vector<RigidVelocity> free, by_contact;  // v and M G^T lambda
-    std::vector<ActiveContact> contacts;          // bodies and multipliers; the rest is not read
+    std::vector<ActiveContact> contacts;          // bodies and multipliers; the other members are not used
   };
   Before before_;
 };
