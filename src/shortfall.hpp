@@ -11,7 +11,7 @@ namespace stokes {
 struct Shortfall {
   int a, b;      // a body and another or container_index; for a body alone both are this body
   double gap;    // of a pair
-  double error;  // estimated; of a pair: relative to the rate of its gap; of a body: of its velocities, in units of rate and size
+  double error;  // estimated; of a pair: of the rate of its gap, relative; of a body: of its velocities, over rate and size
 };
 
 // Pairs with an estimated error above 0.1 and bodies with one above 1e-3, the largest first. Velocities that nodes resolve

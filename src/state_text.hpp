@@ -29,7 +29,7 @@ class StateWriter {
   std::string text_;
 };
 
-  // std::runtime_error if the text differs from what was written.
+// std::runtime_error if the text differs from what was written.
 class StateReader {
  public:
   explicit StateReader(std::string_view text) : rest_(text) {}

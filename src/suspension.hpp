@@ -39,7 +39,7 @@ struct SurfaceMotion {
   }
 };
 
-// A rigid body that moves freely; a fixed one, held in place or driven at a given velocity; or an inner wall of the domain.
+// A rigid body that moves freely, a fixed body that is held or driven at a given velocity, or an inner wall of the domain.
 struct Body {
   Shape shape;
   Pose pose;
@@ -49,7 +49,7 @@ struct Body {
   SurfaceMotion surface{};  // of a fixed body
   int points = 0;           // on its boundary; 0: as many as on every body
 
-// True for a fixed body, not a wall, whose pose changes.
+  // True for a fixed body, not a wall, whose pose changes.
   bool is_driven() const { return fixed && points == 0 && (surface.translation != 0.0 || surface.angular_velocity != 0.0); }
 };
 
