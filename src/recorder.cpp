@@ -105,7 +105,7 @@ std::string help_of(std::span<const Column> columns) {
   return text;
 }
 
-// Why a table that begins with these columns cannot be cut to so many bytes and continued, or nothing.
+// Says why a table with these columns cannot be cut to so many bytes and continued; empty if it can.
 std::string why_not_continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                               std::uintmax_t bytes) {
   std::error_code error;
@@ -255,7 +255,7 @@ void Recorder::append_geometry(const StepRecord& record, Row& row) const {
   }
 }
 
-// Of a step that is left out the rows wait until it is known whether it is the last.
+// The rows of a step that is not written are kept until it is known whether it is the last.
 void Recorder::write_bodies(const StepRecord& record) {
   const StepOutcome* outcome = record.outcome;
   std::vector<Row> rows;
