@@ -5,8 +5,7 @@
 //            each at the body that follows in the list, without those of fixed bodies.
 // In the paper's representation the flow is the double layers plus Stokeslets and rotlets of all forces and torques on the
 // fluid, at the centres of their own bodies. The second field is therefore the first plus point forces and torques at the
-// centres.
-// Medians are over the fluid farther than 0.3 from the centres of the discs.
+// centres. Medians are over the fluid farther than 0.3 from the centres of the discs.
 
 #include "direct_fields.hpp"
 #include "experiment.hpp"

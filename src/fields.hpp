@@ -38,8 +38,7 @@ GridFlow flow_on_grid(const StepRecord& record, const StepperOptions& options, c
 // body's length to spare:
 //   x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside
 // inside is 1 or 0; where it is 1, all columns but x and y are nan. The file depends only on the arguments. Errors as
-// above, and
-// NumericalError on a write error.
+// above, and NumericalError on a write error.
 void write_fields(const std::filesystem::path& path, const StepRecord& record, const StepperOptions& options, int points);
 
 }  // namespace stokes

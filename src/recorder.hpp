@@ -21,8 +21,8 @@ const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 
 // trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque,stresslet_11,stresslet_12
 //   The configuration at the start of a step, the velocities, contact forces and torques of that step, and the stresslets.
-//   Steps written: every `output_every`-th, the first and the last. The final configuration is one more step
-//   whose other fields are empty. Walls have no rows.
+//   Steps written: every `output_every`-th, the first and the last. The final configuration is one more step whose other
+//   fields are empty. Walls have no rows.
 // steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,
 //            smallest_multiplier,largest_multiplier,estimated_error,nodes,clusters,most_nodes,unresolved
 //   A row for every step and one for the final configuration. With an accuracy the estimated error is that of the

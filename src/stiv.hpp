@@ -60,7 +60,7 @@ struct StivOptions {
 // where r and r_min are the semi-axes. With 32 vertices that is half a percent of a disc's radius; with a separation of 0
 // curves can overlap by it. On its straight path a vertex of a body that turns by w is up to r w^2 / 8 inside the rigid
 // path; a graze that shallow is missed or invented. w should be below 0.2 and must be below pi. Bodies must not overlap at
-// the start. Their offset polygons may, by less than the separation: a cross with no vertex of either inside the other is
+// the start. Their offset polygons may, by less than the separation; a cross with no vertex of either inside the other is
 // not seen.
 // Cost with 128 vertices: 5 to 10 microseconds for a pair in contact, 80 for one that passes through, less
 // for one whose circles only meet; up to 1 ms for 48 crowded bodies.
