@@ -1,5 +1,5 @@
-// Second-order Adams-Bashforth steps with contact, of variable length, at the cost of forward Euler. With r = dt /
-// dt_before and c = M G^T lambda_before at x minus the same at the start of the step before,
+// Second-order Adams-Bashforth steps with contact, of variable length, at the cost of forward Euler. With
+// r = dt / dt_before and c = M G^T lambda_before at x minus the same at the start of the step before,
 //   x' from the contact problem with the fluid at x, from x + dt (r/2) (v - v_before + c), over dt.
 // The first of the two terms of c comes from the fluid at x: the forces of the step before, along the present normals. The
 // multiplier is therefore that of the middle of the step, and right from the first full step in contact on.

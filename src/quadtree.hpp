@@ -1,8 +1,8 @@
 // Adaptive quadtree over source and target points.
 //
 // Boxes are squares. A box with more than `leaf_size` sources or targets is split into its quadrants; quadrants without
-// points are left out. Boxes are stored level by level, the children of one box
-// side by side, and the points of every box are consecutive in the sorted order.
+// points are left out. Boxes are stored level by level, the children of one box side by side, and the points of every box
+// are consecutive in the sorted order.
 #pragma once
 
 #include <cstdint>

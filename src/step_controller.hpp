@@ -1,6 +1,6 @@
 // When each step starts, how long it is, and in which direction the flow is driven. There are three rules for the length:
-// fixed; halved on a failure (adaptive); or by the estimated error of the steps (tolerance). In the last, e = error /
-// tolerance:
+// fixed; halved on a failure (adaptive); or by the estimated error of the steps (tolerance). In the last, with
+// e = error / tolerance:
 //   a step is taken if e <= 1, or if it restores the separation of bodies that start too close;
 //   the next one is .9 e^(-.7/3) e_before^(.4/3) times as long, between .2 and 3 times, not longer after a rejection;
 //   a rejected one is tried again .9 e^(-1/3) times as long, at least a tenth, and from the second time on .9 e^(-1/2)

@@ -33,7 +33,7 @@ enum class StivGradient {
 
 struct StivOptions {
   int vertices;  // of each polygon; at least 8. A fixed body gets the smallest multiple of it with which its
-                 // vertices are as dense, along the perimeter, as those of the densest mobile body
+                 // vertices are at least as dense, along the perimeter, as those of the densest mobile body
   StivGradient gradient = StivGradient::full;
 };
 
