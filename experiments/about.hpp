@@ -1,4 +1,4 @@
-// What the programs of this folder make, in a sentence each, for their --help.
+// One sentence about each program of this folder, for its --help.
 #pragma once
 
 #include <string_view>

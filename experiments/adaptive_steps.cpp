@@ -1,6 +1,6 @@
-// Adaptive steps (section 3.3): the runs of Table 1 at delta = 3h with fixed steps, and from a step four times
-// as large that is halved when contact is not resolved in ten iterations and grown again by 1.5: with the exact
-// gap, with interference volumes, and with the self-mobility in the LCP matrix, which converges slowly.
+// Adaptive steps (section 3.3): the runs of Table 1 at delta = 3h with fixed steps, and with adaptive steps. These start
+// four times as large, are halved when contact is not resolved in ten iterations, and grow again by 1.5. Variants: the
+// exact gap, interference volumes, and the self-mobility in the LCP matrix, which converges slowly.
 
 #include "experiment.hpp"
 #include "two_discs.hpp"

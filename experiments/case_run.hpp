@@ -1,5 +1,5 @@
-// A case of an experiment that is a run of simulate_case(): its files in <experiment>/<case>/, before and after.
-// Killed or interrupted, it goes on with the same command from its checkpoint there.
+// A case of an experiment that is a run of simulate_case(), with its files in <experiment>/<case>/.
+// If it is killed or interrupted, the same command continues it from its checkpoint there.
 #pragma once
 
 #include "experiment.hpp"
@@ -7,7 +7,7 @@
 
 namespace stokes {
 
-// A case between two walls, from both of which the same source flows.
+// A case between two walls, both with the same source.
 inline Case case_between(const Annulus& annulus) {
   Case c;
   c.geometry = Geometry::annulus;
@@ -19,8 +19,8 @@ inline Case case_between(const Annulus& annulus) {
   return c;
 }
 
-// Writes case.txt and bodies.csv, which `simulate` reads too, and returns the case that they make. It replaces a run of
-// another case there, which an earlier version of the experiment has left.
+// Writes case.txt and bodies.csv, which `simulate` can read, too, and returns the case that they describe. It replaces a
+// run of another case there, left by an earlier version of the experiment.
 inline Case write_case(const std::string& name, Case c, const Suspension& bodies, const Results& results) {
   const std::filesystem::path folder = results.folder() / name, file = folder / "case.txt";
   c.bodies = "bodies.csv";
@@ -41,7 +41,7 @@ struct RecordedBody {
   Wrench contact;  // on the body in the step from here
 };
 
-// What a run with output_every = 1 has written: its states, the last of which no step leaves.
+// The output of a run with output_every = 1: its states. No step starts from the last one.
 class RecordedRun {
  public:
   // InputError where rows are missing.
@@ -60,21 +60,21 @@ class RecordedRun {
         throw InputError(concat(rows.file, ": not every step has a row for every body"));
   }
 
-  // Whether the last state is there, in which a run ends or fails.
+  // True if the last state, in which a run ends or fails, has been written.
   bool has_ended() const { return !bodies_.empty() && std::isnan(states("dt").back()); }
 
   // The bodies in each state.
   const std::vector<std::vector<RecordedBody>>& bodies() const { return bodies_; }
-  // A column of steps.csv that tells of each state.
+  // A column of steps.csv with a value for each state.
   std::vector<double> states(const char* column) const { return steps_.numbers(column); }
-  // One that tells of the step from each state: 0 for the last.
+  // A column with a value for the step from each state; 0 for the last state.
   std::vector<double> steps(const char* column) const {
     std::vector<double> values = steps_.numbers(column);
     values.back() = 0.0;
     return values;
   }
 
-  // The first states at or after each of some times, as far as there are any.
+  // The first states at or after each of some times, as far as they exist.
   std::vector<std::size_t> states_at(const std::vector<double>& times) const {
     const std::vector<double> time = states("time");
     std::vector<std::size_t> found;
@@ -83,12 +83,12 @@ class RecordedRun {
     return found;
   }
 
-  // In the step from a state.
+  // True in the step from a state.
   bool in_contact(std::size_t state, std::size_t body) const {
     const Wrench& w = bodies_[state][body].contact;
     return w.force != 0.0 || w.torque != 0.0;
   }
-  // In the step that led to a state; at the start, in the first one.
+  // True in the step that led to a state; for the start, in the first step.
   bool was_in_contact(std::size_t state, std::size_t body) const {
     return in_contact(state > 0 ? state - 1 : 0, body);
   }

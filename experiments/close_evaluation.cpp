@@ -3,7 +3,7 @@
 // published errors are those of the double layer without its factor 1/pi, hence of pi times this velocity.
 //
 // The case `circle` writes five errors for each N. At y = 1.0005: near_N of interpolation by NearRule::from_target,
-// near_boundary_N by NearRule::from_boundary, near_cauchy_N of Cauchy integrals. Of the trapezoid rule on N nodes:
+// near_boundary_N by NearRule::from_boundary, near_cauchy_N of Cauchy integrals. For the trapezoid rule on N nodes:
 // trapezoid_1.01_N at y = 1.01 and trapezoid_1.1_N at y = 1.1.
 
 #include "cauchy.hpp"

@@ -1,6 +1,6 @@
 // Which variant of the contact algorithm is the paper's? Figures 2 and 3 with interference volumes between
-// polygons of 32 or 128 vertices, the whole gradient or the one with the hit time frozen, global or local
-// coupling, full or self mobility in the LCP matrix; the exact gap beside them.
+// polygons of 32 or 128 vertices, with the whole gradient or the one with frozen hit time, global or local
+// coupling, full or self mobility in the LCP matrix; and with the exact gap.
 
 #include "experiment.hpp"
 #include "two_discs.hpp"

@@ -29,9 +29,10 @@ struct CouetteSuspension {
   Shape shape() const { return {0.5 * couette_length, 0.5 * couette_length / lambda}; }
 };
 
-// Those of Tables 2 and 3. The clearances are those with which the published starts come out, body by body (seed 1000) or
-// by their first order parameter and viscosity (seed 1001): half a body's length and about the spacing of the 32 nodes
-// on a body, .0522 (3:1) and .0486 (6:1); or the spacing of the 256 nodes on the outer wall, .245, and that of a disc, .0736.
+// The suspensions of Tables 2 and 3. With these clearances the published starts come out, body by body (seed 1000) or
+// in their first order parameter and viscosity (seed 1001). They are half a body's length and about the spacing of the 32
+// nodes on a body, .0522 (3:1) and .0486 (6:1); or the spacing of the 256 nodes on the outer wall, .245, and that of a
+// disc, .0736.
 inline const std::vector<CouetteSuspension> couette_suspensions = {
     {5, 1, 27, 1001, 0.0736, 0.0245, 250},   {10, 1, 54, 1001, 0.245, 0.0736, 250},
     {15, 1, 80, 1001, 0.245, 0.0736, 250},   {5, 3, 80, 1000, 0.375, 0.0518, 1000},
@@ -104,7 +105,7 @@ inline Case couette_case(const CouetteCase& chosen) {
 // The results of couette_run beside those of another experiment.
 inline Results couette_results(const Results& other) { return {other.folder().parent_path(), "couette_run"}; }
 
-// The runs from other starts of a suspension that are there.
+// The existing runs from other starts of a suspension.
 inline std::vector<std::string> finished_seeds(const Results& runs, const CouetteSuspension& suspension) {
   std::vector<std::string> names;
   for (int seed = 1; seed <= couette_seeds; ++seed)
@@ -112,21 +113,21 @@ inline std::vector<std::string> finished_seeds(const Results& runs, const Couett
   return names;
 }
 
-// The same, the run from the paper's start first.
+// The same, after the run from the paper's start.
 inline std::vector<std::string> finished_runs(const Results& runs, const CouetteSuspension& suspension) {
   std::vector<std::string> names = finished_seeds(runs, suspension);
   if (const std::string name = CouetteCase{suspension}.name(); runs.has(name)) names.insert(names.begin(), name);
   return names;
 }
 
-// A mean over the second revolution from the paper's start; NaN if that run is not there.
+// A mean over the second revolution from the paper's start; NaN without that run.
 inline double from_paper_start(const Results& runs, const CouetteSuspension& suspension, const std::string& quantity) {
   const std::string name = CouetteCase{suspension}.name();
   return runs.has(name) ? runs.quantity(name, quantity) : std::nan("");
 }
 
-// A table of the paper, of means over the second revolution: table.csv, with the spread over other starts, and for
-// `verify` one file a suspension.
+// A table of the paper, of means over the second revolution: table.csv, with the spread over other starts, and one file for
+// each suspension for `verify`.
 inline void collect_table(const Results& results, const std::string& quantity, bool with_discs) {
   const Results runs = couette_results(results);
   const std::string experiment = results.folder().filename().string();

@@ -4,9 +4,9 @@
 // (interference volumes with balanced clusters) and the short _quick; _ab2_250 and _ab2_500, with second-order steps of
 // pi/250 and pi/500.
 //
-// The folder of a case holds a case file and its bodies, which `simulate` reads too, and the results of the run; an
-// interrupted run goes on from its checkpoint. <case>_series.csv has one row a step, <case>.csv the means over the second
-// revolution and the values where the published curves were read.
+// The folder of a case holds a case file and its bodies, which `simulate` can read, too, and the results of the run. An
+// interrupted run continues from its checkpoint. <case>_series.csv has one row per step, <case>.csv the means over the
+// second revolution and the values at the times where the published curves were read.
 
 #include <cmath>
 
@@ -31,7 +31,7 @@ std::vector<CouetteCase> all_cases() {
   return cases;
 }
 
-// Over the steps from a time on.
+// Mean over the steps from a time on.
 struct Window {
   std::vector<double> time;
   double from;
@@ -50,7 +50,7 @@ struct Window {
   }
 };
 
-// That of the step nearest to a time; NaN after the end.
+// The value of the step nearest to a time; NaN after the end.
 double value_at(double t, const std::vector<double>& time, const std::vector<double>& values) {
   const auto after = std::upper_bound(time.begin(), time.end(), t + 0.5 * time[1]);
   return after == time.begin() || t > time.back() + 0.5 * time[1] ? std::nan("") : values[after - time.begin() - 1];

@@ -1,6 +1,6 @@
 // Tables 2 and 3 from the paper's starts with second-order steps (couette_run, _ab2_250 and _ab2_500) beside the paper's
-// forward Euler: what the printed means would be without the error of the time step, as far as contacts, after which tracks
-// part, let this be known.
+// forward Euler. They show the printed means without the error of the time step, within the limits set by contacts, after
+// which tracks separate.
 
 #include "couette.hpp"
 
@@ -9,8 +9,8 @@ namespace {
 using namespace stokes;
 
 // table.csv: for each suspension and quantity (0: order parameter, 1: effective viscosity) the mean over the second
-// revolution by forward Euler and by both step lengths; and the largest difference of the two second-order curves, and of
-// Euler's and the finer one, up to a quarter and up to one revolution.
+// revolution by forward Euler and by both step lengths. Also the largest difference of the two second-order curves, and of
+// Euler's curve and the finer one, up to a quarter and up to one revolution.
 void collect(const Results& results) {
   const Results runs = couette_results(results);
   std::vector<std::vector<double>> rows;

@@ -1,9 +1,9 @@
 // What the experiment programs share: their command line and their result files.
 //
 //   program case=NAME [results=DIR]   computes one case, writes DIR/<experiment>/<case>.csv;
-//           [checkpoint_every=SECONDS]  for cases that go on after an interruption (case_run.hpp)
+//           [checkpoint_every=SECONDS]  for cases that continue after an interruption (case_run.hpp)
 //           [threads=K]               1 if not given: `make -j` runs cases side by side
-//   program collect   [results=DIR]   combines the cases that are there into tables and summary.csv
+//   program collect   [results=DIR]   combines the existing cases into tables and summary.csv
 //   program list                      prints the names of the cases
 //   program --help                    says what it makes
 #pragma once
@@ -32,7 +32,7 @@ using Quantities = std::vector<std::pair<std::string, double>>;
 
 class Results {
  public:
-  // `settings`: of the cases that are runs of simulate_case(), as its user gives them; `command` runs the program.
+  // `settings`: those of cases that are runs of simulate_case(), as given by the user; `command` runs the program.
   Results(const std::filesystem::path& root, const std::string& experiment, std::vector<std::string> settings = {},
           std::string command = {})
       : folder_(root / experiment), settings_(std::move(settings)), command_(std::move(command)) {

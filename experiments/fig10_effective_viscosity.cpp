@@ -1,5 +1,5 @@
-// Figure 10: the effective viscosity over two revolutions, as it comes and smoothed, for every run of couette_run that is
-// there; and what the text says of it. A spike is what a step's value exceeds the smoothed one by.
+// Figure 10: the effective viscosity over two revolutions, unsmoothed and smoothed, for every existing run of couette_run,
+// and the claims of the text about it. A spike is the difference of a step's value and the smoothed one.
 
 #include "couette.hpp"
 #include "smoothing.hpp"
@@ -15,12 +15,12 @@ struct Spikes {
   double in_contact = 0.0, without = 0.0;
 };
 
-// Of a run, its first tenth of a revolution apart, where the start relaxes.
+// Spikes of a run without its first tenth of a revolution, in which the start relaxes.
 Spikes write_series(const std::string& name, const Results& runs, const Results& results) {
   const Table series = read_csv(runs.path(name + "_series"));
   std::vector<double> time = series.numbers("revolutions"), raw = series.numbers("effective_viscosity");
   const std::vector<double> contacts = series.numbers("contacts");
-  time.pop_back(), raw.pop_back();  // the end, which no step starts from
+  time.pop_back(), raw.pop_back();  // the end, from which no step starts
   const std::vector<double> when = series.numbers("time");
   const std::vector<double> smooth = smoothed(raw, levels_for(when[1] - when[0]));
   std::vector<std::vector<double>> rows;
@@ -34,7 +34,8 @@ Spikes write_series(const std::string& name, const Results& runs, const Results&
   return spikes;
 }
 
-// contact_models.csv: spikes of both contact models; claims.csv: the paper's starts against what the text says.
+// contact_models.csv: spikes of both contact models. claims.csv: runs from the paper's starts against the claims of the
+// text.
 void collect(const Results& results) {
   const Results runs = couette_results(results);
   std::map<std::string, Spikes> spikes_of;

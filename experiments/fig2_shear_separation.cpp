@@ -1,5 +1,5 @@
 // Figure 2: two discs in u = (y, 0), 200 steps of 0.2, for several minimum separations: the trajectories, the gaps
-// step by step, and how far the left disc is displaced across the flow after the encounter.
+// at every step, and the displacement of the left disc across the flow after the encounter.
 //
 // The paper's contact steps end at gaps above delta. The cases `published_<delta>` take these gaps from the drawn paths,
 // step by step, and compute the rest: the steps without contact after them, and the displacement.
@@ -15,7 +15,7 @@ const std::vector<std::string> separations = {"0", "1", "2", "2.1", "2.5", "2.75
 
 std::string case_name(const std::string& separation) { return concat("delta", separation, "h"); }
 
-// The contact steps of a path as the figure shows it: the number of the first one, and the gaps at their ends.
+// The contact steps of a path in the figure: the number of the first one, and the gaps at their ends.
 struct DrawnContact {
   std::string name;
   int first_step;
@@ -31,7 +31,7 @@ constexpr int first_drawn_step = 72, last_drawn_step = 78;
 
 std::string gap_after(int step) { return concat("gap_over_h_after_step_", step); }
 
-// Of our run, in the steps in which the figure has contact, without the first of them.
+// Mean gap of our run in the steps in which the figure has contact, without the first of them.
 double mean_gap_after_later_steps(const DrawnContact& drawn, const TwoDiscRun& run) {
   const int later = static_cast<int>(drawn.gaps_over_h.size()) - 1;
   double sum = 0.0;

@@ -1,10 +1,10 @@
 // Figure 4: the Taylor-Green suspension to t = 30 for three time steps: snapshots, the track of one body, contacts
-// and iterations. Beside the exact gap, nodes clustered near contacts: interference volumes (_stiv), 32 nodes
-// at equal steps (_plain), 64 nodes, a tolerance of 1e-8, adaptive steps. A run that fails is a result: `completed` and
-// the comment `ending` tell when and why.
+// and iterations. These runs have the exact gap and nodes clustered near contacts. Variants: interference volumes (_stiv),
+// 32 nodes at equal steps (_plain), 64 nodes, a tolerance of 1e-8, adaptive steps. A run that fails is a result:
+// `completed` and the comment `ending` tell when and why.
 //
-// The folder of a case holds a case file and its bodies, which `simulate` reads too, and the run; an interrupted run goes
-// on from its checkpoint.
+// The folder of a case holds a case file and its bodies, which `simulate` can read, too, and the run. An interrupted run
+// continues from its checkpoint.
 
 #include <chrono>
 #include <numeric>
@@ -51,7 +51,7 @@ std::vector<TaylorGreenCase> all_cases() {
   return all;
 }
 
-// Of the contact forces on all bodies; the torque is about the origin.
+// Sum of the contact forces on all bodies; the torque is about the origin.
 Wrench net_contact(const std::vector<RecordedBody>& bodies) {
   Wrench net;
   for (const auto& [pose, contact] : bodies) {
@@ -151,7 +151,7 @@ void run_case(const std::string& name, const Results& results) {
   std::filesystem::remove(results.path(name + "_timing"));
   if (!goes_on) results.write(name + "_timing", {{"seconds", seconds}});
   results.write(name, summarise(run, ended, failure), {{"ending", failure.empty() ? "end_time" : failure}});
-  checkpoint.remove();  // of a failure, which is now reported
+  checkpoint.remove();  // that of a failure, which is now reported
 }
 
 // The centre of the coloured body: it moves linearly within a step.
@@ -178,7 +178,7 @@ struct Pair {
 
 constexpr int compared_times = 301;  // every 0.1 up to t = 30
 
-// How far the coloured bodies of two runs are apart at these times.
+// Distance of the coloured bodies of two runs at these times.
 std::vector<double> distances(const Pair& pair, const Results& results) {
   const Track first(read_csv(results.path(pair.first + "_track"))), second(read_csv(results.path(pair.second + "_track")));
   std::vector<double> apart;
@@ -194,8 +194,8 @@ double largest_up_to_10(const std::vector<double>& apart) {
   return largest;
 }
 
-// differences.csv, and differences_<pair>.csv with the largest up to t = 10 and some later ones, of the pairs whose runs are
-// there.
+// differences.csv, and for the pairs whose runs exist differences_<pair>.csv with the largest difference up to t = 10 and
+// some later ones.
 void collect_differences(const Results& results) {
   std::vector<Pair> pairs;
   for (const char* model : {"", "_stiv"}) {
@@ -222,7 +222,7 @@ void collect_differences(const Results& results) {
   if (header.size() > 1) results.write("differences", header, rows);
 }
 
-// summary.csv: of the three runs of Figure 4, once all are there.
+// summary.csv: the three runs of Figure 4, once all exist.
 void summarise_steps(const Results& results) {
   double iterations = 0.0, apart = 0.0;
   for (const std::string& time_step : time_steps) {

@@ -1,9 +1,9 @@
-// Figures 5 and 6: where the discs of section 4.3 go, and how far from their starts they come back.
+// Figures 5 and 6: the paths of the discs of section 4.3, and their distances from their starts when they come back.
 // Cases: paper, the published run; paper_stiv: with interference volumes; paper_delta*h, paper_dt*, paper_wall256: with
-// other separations, steps, nodes on the walls; undisturbed: a lone disc; quick: only to t = 0.96, in contact early.
+// other separations, steps, nodes on the walls; undisturbed: a lone disc; quick: only to t = 0.96, with early contact.
 //
-// The folder of a case holds a case file and its bodies, which `simulate` reads too, and the run; an interrupted run goes
-// on from its checkpoint. <case>_snapshots.csv has the bodies at the times of the published frames.
+// The folder of a case holds a case file and its bodies, which `simulate` can read, too, and the run. An interrupted run
+// continues from its checkpoint. <case>_snapshots.csv has the bodies at the times of the published frames.
 
 #include "injection.hpp"
 
@@ -47,7 +47,7 @@ void write_snapshots(const std::string& name, const Suspension& start, const Rec
   std::vector<std::vector<double>> rows;
   for (const std::size_t k : run.states_at(times))
     for (std::size_t i = 0; i < start.size(); ++i) {
-      const bool is_wall = start[i].points > 0;  // which the run does not record: it stays
+      const bool is_wall = start[i].points > 0;  // the run does not record it, since it does not move
       const Pose& pose = is_wall ? start[i].pose : run.bodies()[k][i].pose;
       const bool in_contact = !is_wall && run.in_contact(k, i);
       rows.push_back({time[k], static_cast<double>(i), pose.centre.real(), pose.centre.imag(), start[i].shape.a,
@@ -70,7 +70,7 @@ void add_centres(const RecordedRun& run, std::size_t state, double time, Quantit
   row.push_back({concat("mean_distance_at_", time), distance});
 }
 
-// How far the free discs are from their starts in the last frame.
+// Distances of the free discs from their starts in the last frame.
 void add_return(const RecordedRun& run, std::size_t last, Quantities& row) {
   const std::vector<double> distance = distances_from_start(run, last);
   const auto farthest = std::max_element(distance.begin(), distance.end()) - distance.begin();
@@ -115,8 +115,8 @@ void report(const InjectionCase& chosen, const Suspension& start, const Recorded
                  {"separation_over_h", format_number(parameters.separation_over_h)}});
 }
 
-// The driving by itself: the flow without bodies at points, and lone discs, which a potential flow carries along like
-// points, r^2 - r0^2 = t, but for what the walls reflect of their disturbance, proportional to their area.
+// The driving alone: the flow without bodies at points, and lone discs. A potential flow carries a disc along like a
+// point, r^2 - r0^2 = t, except for the walls' reflection of its disturbance, which is proportional to its area.
 void run_undisturbed(const Results& results) {
   const Injection parameters{.time_step = 0.02};
   const Suspension walls = between_walls({}, injection_annulus(parameters));

@@ -4,8 +4,8 @@
 //   plotted  what the paper shows: the double layers of all boundaries, and Stokeslets and rotlets of the contact forces,
 //            each at the body that follows in the list, without those of fixed bodies.
 // In the paper's representation the flow is the double layers plus Stokeslets and rotlets of all forces and torques on the
-// fluid, at the centres of their own bodies. So the second field is the first plus point forces and torques at the centres.
-// Medians are over the fluid farther than 0.3 from the centres of the discs.
+// fluid, at the centres of their own bodies. The second field is therefore the first plus point forces and torques at the
+// centres. Medians are over the fluid farther than 0.3 from the centres of the discs.
 
 #include "direct_fields.hpp"
 #include "experiment.hpp"
@@ -18,10 +18,10 @@ using namespace stokes;
 
 constexpr Square view{{-8.0, -8.0}, 16.0};
 constexpr int grid_points = 100;
-constexpr double least_distance = 0.3;  // from a disc's centre, of the points that the medians count
+constexpr double least_distance = 0.3;  // from a disc's centre, of the points in the medians
 
-// sigma_xy of the second field less that of the first, on the grid: that of the contact forces and torques of free bodies at
-// the next body, less that of all forces and torques at their own bodies.
+// sigma_xy of the second field minus that of the first, on the grid: that of the contact forces and torques of free bodies
+// at the next body, minus that of all forces and torques at their own bodies.
 std::vector<double> shear_stress_of_shift(const GridFlow& flow, const Suspension& bodies,
                                           const std::vector<Wrench>& contact) {
   PointArray targets, centres;

@@ -1,5 +1,5 @@
-// Figure 8: the suspensions between cylinders as they start: bodies, area fraction, alignment, smallest gap, and the tries
-// that placing took; and one file of all bodies for the picture.
+// Figure 8: the initial suspensions between cylinders: bodies, area fraction, alignment, smallest gap, and the number of
+// tries for their placement; and one file of all bodies for the picture.
 
 #include "couette.hpp"
 #include "neighbours.hpp"

@@ -1,5 +1,5 @@
-// Figure 9: the order parameter over two revolutions: series of couette_run, and here the dashed curves, of bodies in a
-// shear flow that do not feel each other, their angles uniform at the start; and what the text says of S.
+// Figure 9: the order parameter over two revolutions from the series of couette_run, and the dashed curves, for bodies in a
+// shear flow that do not interact and have uniform initial angles; and the claims of the text about S.
 
 #include "couette.hpp"
 
@@ -45,7 +45,7 @@ void run_single_body(const std::string&, const Results& results) {
   results.write("orbit", row);
 }
 
-// claims.csv: S from the paper's starts against what the text says.
+// claims.csv: S from the paper's starts against the claims of the text.
 void collect(const Results& results) {
   const Results runs = couette_results(results);
   double slowest_rise = 0.0, least_excess = std::nan(""), least = std::nan("");

@@ -1,9 +1,9 @@
-// Section 4.3: fluid is injected through both walls of an annulus until t = 4 and drawn back until t = 8, past 50 free
+// Section 4.3: between two walls, fluid is injected until t = 4 and drawn back until t = 8, past 50 free
 // discs and a ring of 41 fixed ones.
 //
-// The paper gives neither start nor step nor separation. They were inferred from its figures: the start is that of seed
-// 1000, distances from the axis uniform in [0.75, 4.75], clear of the walls by a radius, of each other and of the ring by
-// h; dt = 0.08, delta = 0.25h.
+// The paper does not give the start, the step and the separation. They were inferred from its figures. The start is that of
+// seed 1000: distances from the axis are uniform in [0.75, 4.75], gaps to the walls exceed a radius, and gaps to other
+// discs and the ring exceed h. dt = 0.08, delta = 0.25h.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ inline constexpr Shape injection_disc{0.25, 0.25};
 inline constexpr int injection_points = 32;
 inline constexpr int free_count = 50, ring_count = 41;  // bodies 0 to 49, then 50 to 90; the inner wall is the last
 
-// h of the paper, which lengths are given in.
+// h of the paper, the unit of lengths.
 inline double injection_spacing() { return injection_disc.perimeter() / injection_points; }
 
 // The times of the published frames. Those of Figure 6 are labelled with the next multiple of 2 (but for t = 0).
@@ -57,7 +57,7 @@ inline Suspension injection_bodies(const Injection& parameters) {
   return between_walls(std::move(bodies), annulus);
 }
 
-// Interference volumes as the paper's: polygons of the nodes, the hit time frozen.
+// The paper's interference volumes: polygons of the nodes, with frozen hit time.
 inline Case injection_case(const Injection& parameters) {
   Case c = case_between(injection_annulus(parameters));
   c.points_per_body = injection_points;
@@ -71,14 +71,14 @@ inline Case injection_case(const Injection& parameters) {
   return c;
 }
 
-// How many free discs are in contact in the step from this state.
+// Number of free discs in contact in the step from this state.
 inline double discs_in_contact(const RecordedRun& run, std::size_t state) {
   double touching = 0.0;
   for (int i = 0; i < free_count; ++i) touching += run.in_contact(state, i);
   return touching;
 }
 
-// How far the free discs are from their starts in a state.
+// Distances of the free discs from their starts in a state.
 inline std::vector<double> distances_from_start(const RecordedRun& run, std::size_t state) {
   std::vector<double> distance;
   for (int i = 0; i < free_count; ++i)

@@ -1,5 +1,6 @@
-// A claim of section 4.1: with delta = 0 and dt = 0.4 the globally implicit scheme passes, the locally implicit
-// one collides. Two discs from (-8, 0.5) in u = (2y, 0), and in u = (y, 0), where both pass.
+// A claim of section 4.1: with delta = 0 and dt = 0.4 the discs pass each other with the globally implicit scheme and
+// collide with the locally implicit one. Two discs from (-8, 0.5) in u = (2y, 0), and in u = (y, 0), where both schemes
+// pass.
 
 #include "experiment.hpp"
 #include "two_discs.hpp"

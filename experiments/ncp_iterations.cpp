@@ -1,4 +1,4 @@
-// How many linear complementarity problems a contact takes, with the full mobility in their matrix and with
+// The number of linear complementarity problems per contact, with the full mobility in their matrix and with
 // each body's own: two discs pressed together, and the encounter of Table 1 at 2h and 3h.
 
 #include "experiment.hpp"

@@ -1,4 +1,4 @@
-// main() of the programs that read results and references: arguments name=value, exit status 2 for wrong ones.
+// main() of the programs that read results and references: arguments name=value, exit status 2 for wrong arguments.
 #pragma once
 
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace stokes {
 
 using Arguments = std::map<std::string, std::string>;
 
-// `arguments`: the names there are, with their defaults; missing=fail|allow is one of all programs. `run` gets their
+// `arguments`: the known names with their defaults; all programs also know missing=fail|allow. `run` gets their
 // values and returns the exit status; `help` follows the usage.
 template <class Run>
 int run_on_results(const std::string& program, const std::string& usage, const std::string& help, Arguments arguments,

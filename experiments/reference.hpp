@@ -1,6 +1,6 @@
-// The reference values: rows of reference_data/*.csv, and what makes a row malformed.
+// The reference values: rows of reference_data/*.csv, and the checks for malformed rows.
 //
-// The columns are `reference_columns`. A row speaks of the number in results/<experiment>/<case>.csv, first row,
+// The columns are `reference_columns`. A row is about the number in results/<experiment>/<case>.csv, first row,
 // column <quantity>.
 // With d = abs_tol + rel_tol |value|, a number `got` agrees if
 //   close           |got - value| <= d             at_most    got <= value + d
@@ -11,7 +11,7 @@
 // Notes:
 //   KNOWN measured: reason, KNOWN unexplained: reason   the number differs, by a reason that was measured or without one;
 //                       known_low <= got <= known_high is accepted in place of the tolerance
-//   OPTIONAL: what      needs a run that is not made unless it is asked for; a KNOWN may follow
+//   OPTIONAL: what      needs a run that is made only on request; a KNOWN may follow
 // Malformed rows, and tables that name a number twice, are InputErrors with file and line.
 #pragma once
 
@@ -52,7 +52,7 @@ struct ReferenceRow {
   double known_low, known_high;  // of a row with a deviation
 };
 
-// A KNOWN at the start of a note or behind its OPTIONAL part.
+// A KNOWN at the start of a note or after its OPTIONAL part.
 struct KnownNote {
   Deviation deviation = Deviation::none;
   std::string reason;

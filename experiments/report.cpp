@@ -2,11 +2,11 @@
 //
 //   report [results=DIR] [reference=DIR] [document=DIR] [errata=FILE] [missing=fail|allow]
 //
-// The document, all .tex files of its folder, asks for a number by \result{EXPERIMENT/CASE}{COLUMN}{FORMAT}: the first
-// row of results/EXPERIMENT/CASE.csv, or the row that a selection names, as in table[phi=5,lambda=3]; FORMAT is that of
-// tex_number. It asks for a published value by \published{ID}, the id of a row of the reference values. Their definitions
-// go to results/report/values.tex, the tables to files beside it. Exit status: 0; 1 for results that are missing or older
-// than what they are made from, unless missing=allow, which writes \missing{} in their place; 2 for wrong input.
+// The document (all .tex files of its folder) requests a number by \result{EXPERIMENT/CASE}{COLUMN}{FORMAT}. It is in the
+// first row of results/EXPERIMENT/CASE.csv, or in the row of a selection, as in table[phi=5,lambda=3]; FORMAT is that of
+// tex_number. The document requests a published value by \published{ID}, the id of a row of the reference values. The
+// definitions go to results/report/values.tex, the tables to files beside it. Exit status: 0; 1 for results that are
+// missing or older than their sources, unless missing=allow, which writes \missing{} instead; 2 for wrong input.
 
 #include <algorithm>
 #include <cstdio>
@@ -206,7 +206,7 @@ std::string provenance(Inputs& inputs) {
 
 void require_fresh_verdict(Inputs& inputs, const fs::path& reference) {
   const fs::path verdict = inputs.results() / "verdict.csv";
-  if (!fs::exists(verdict)) return;  // told when it is read
+  if (!fs::exists(verdict)) return;  // reported when it is read
   inputs.require_not_older(verdict, reference);
   for (const fs::path& folder : folders(inputs.results())) inputs.require_not_older(verdict, folder);
 }

@@ -1,4 +1,4 @@
-// What the report is made from: results and reference values, with a note of everything that is missing or out of date.
+// The sources of the report: results and reference values, with a note of everything that is missing or out of date.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@ inline std::vector<std::filesystem::path> folders(const std::filesystem::path& r
   return found;
 }
 
-// What the report is made from; everything that is not there or out of date is told in `problems`.
+// The sources of the report. `problems` lists everything that is missing or out of date.
 class Inputs {
  public:
   Inputs(std::filesystem::path results, const std::filesystem::path& reference) : results_(std::move(results)) {
@@ -75,7 +75,7 @@ class Inputs {
     return &*slot;
   }
 
-  // In the first row, or in the one that a selection behind the name of the file names: table[phi=5,lambda=3].
+  // A value in the first row, or in the row of a selection after the name of the file: table[phi=5,lambda=3].
   std::optional<double> number(const std::string& file, const std::string& column) {
     const std::size_t bracket = std::min(file.find('['), file.size());
     const Table* found = table(file.substr(0, bracket));
@@ -87,13 +87,13 @@ class Inputs {
     return std::nullopt;
   }
 
-  // The same as LaTeX, or the mark of what is missing.
+  // The same as LaTeX, or the mark of a missing value.
   std::string tex(const std::string& file, const std::string& column, const std::string& format) {
     const std::optional<double> value = number(file, column);
     return value ? tex_number(*value, format) : missing_mark;
   }
 
-  // The value of the reference row with this id, with the digits that are written there.
+  // The value of the reference row with this id, with the digits written there.
   std::string published(const std::string& id) {
     for (const Table& t : reference_)
       for (int row = 0; row < static_cast<int>(t.rows.size()); ++row)
@@ -106,7 +106,7 @@ class Inputs {
   }
 
  private:
-  // By [column=number,...]; everything when it is empty.
+  // Rows selected by [column=number,...]; all rows if it is empty.
   static bool selected(const Table& t, int row, std::string_view selection) {
     if (selection.empty()) return true;
     if (selection.back() != ']') throw InputError(concat("a row is named like [phi=5,lambda=3], not ", quote(selection)));

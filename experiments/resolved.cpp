@@ -1,9 +1,9 @@
-// What 32 nodes a body do to the paper's results: runs with them, at equal steps as in the paper (_points32), and the same
-// with velocities to 1e-6 (_accuracy1e-6). Table 1 (some separations and steps), the Taylor-Green suspension to t = 10, the
-// injection, and the 5 %, 3:1 suspension between cylinders for a quarter of a revolution.
+// The effect of 32 nodes per body on the paper's results: runs with them, at equal steps as in the paper (_points32), and
+// the same runs with velocities to 1e-6 (_accuracy1e-6). Table 1 (some separations and steps), the Taylor-Green suspension
+// to t = 10, the injection, and the 5 %, 3:1 suspension between cylinders for a quarter of a revolution.
 //
-// The long cases hold a case file and its bodies in their folders, which `simulate` reads too, and go on after an
-// interruption. table.csv: the published values and both runs'.
+// The folders of the long cases hold a case file and its bodies, which `simulate` can read, too. These cases continue after
+// an interruption. table.csv: the published values and those of both runs.
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,7 @@ void run_table1(const Table1Case& chosen, const std::string& name, const Results
   results.write(name, {{"reversal_error", reversal_error(complete_two_discs(parameters))}});
 }
 
-// Of any run: contacts, and what the nodes did not resolve.
+// Statistics of any run: contacts, and what the nodes did not resolve.
 Quantities common(const RecordedRun& run) {
   const std::vector<double> time = run.states("time"), contacts = run.steps("contacts"), ncp = run.steps("ncp_iterations");
   const std::vector<double> unresolved = run.steps("unresolved"), nodes = run.steps("most_nodes");
@@ -67,7 +67,7 @@ Quantities common(const RecordedRun& run) {
           {"end_time", time.back()}};
 }
 
-// Tracks of all free bodies, for comparison with the other run's.
+// Tracks of all free bodies, for comparison with the other run.
 void write_tracks(const std::string& name, std::size_t bodies, const RecordedRun& run, const Results& results) {
   const std::vector<double> time = run.states("time");
   std::vector<std::vector<double>> rows;

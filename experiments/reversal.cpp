@@ -1,9 +1,9 @@
-// Table 1's run, two discs in u = (2y, 0) that turns back at t = 10, with every integrator: the distance of the error at
-// t = 20 from its limit for small steps, and the Stokes problems solved on the way. Without contact the limit is 0; with
-// contact it is not, because a contact does not pull on the way back. The limits were found in the two-disc model of exact
-// mobilities.
+// The run of Table 1, two discs in u = (2y, 0) that is reversed at t = 10, with every integrator: the distance of the error
+// at t = 20 from its limit for small steps, and the number of Stokes problems solved. Without contact the limit is 0. With
+// contact it is not, because a contact does not pull on the way back. The limits were computed in the two-disc model with
+// exact mobilities.
 //
-// table.csv is drawn as work against error.
+// A figure shows table.csv as work against error.
 
 #include "experiment.hpp"
 #include "two_discs.hpp"
@@ -63,8 +63,8 @@ void run_case(const std::string& name, const Results& results) {
 }
 
 // table.csv: scheme (its number in the list above), separation, step or tolerance (the other is 0), solves, off_limit.
-// summary.csv: the solves that Table 1 at 3 h takes to 1e-3, by forward Euler, whose error is extrapolated as it falls with
-// the step, and by rk3 with the largest tolerance that gives it.
+// summary.csv: the solves for an error of 1e-3 in Table 1 at 3 h, by forward Euler, whose error is extrapolated in
+// proportion to the step, and by rk3 with the largest tolerance that achieves it.
 void collect(const Results& results) {
   std::vector<std::vector<double>> rows;
   for (std::size_t s = 0; s < schemes.size(); ++s) {

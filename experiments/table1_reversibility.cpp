@@ -1,10 +1,10 @@
 // Table 1: two discs in u = (2y, 0), the flow reversed at t = 10; the distance of both centres at t = 20 from
 // where they started, relative to the start, for several minimum separations delta and time steps.
 //
-// The published numbers accumulate time in floating point (t += dt; the flow reverses at the first step
-// that starts with t >= 10, the run ends at the first t >= 20), which at the coarse steps makes the two
-// halves unequal by one step; each case is run with that counting and with exact halves. Contact by the exact
-// gap, and by space-time interference volumes with four vertices a point or one (suffixes _stiv, _stiv32).
+// The published runs accumulate time in floating point (t += dt; the flow reverses at the first step
+// that starts with t >= 10, the run ends at the first t >= 20). At the coarse steps this makes the two
+// halves unequal by one step. Each case is run with that counting and with exact halves. Contact by the exact
+// gap, and by space-time interference volumes with four vertices per node or one (suffixes _stiv, _stiv32).
 
 #include <cmath>
 

@@ -13,7 +13,7 @@ namespace stokes {
 inline constexpr Shape taylor_green_ellipse{0.475, 0.1};
 inline constexpr int taylor_green_points = 32;
 
-// h of the paper, which the separation is given in: also where a run takes other points.
+// h of the paper, the unit of the separation, also where a run has another number of nodes.
 inline double taylor_green_spacing() { return taylor_green_ellipse.perimeter() / taylor_green_points; }
 
 struct TaylorGreen {
@@ -28,7 +28,7 @@ struct TaylorGreen {
   bool adaptive = false;
 };
 
-// On a grid of 4 by 12 with y running fastest, all along x; the grid's half-width is 0.475 pi.
+// Bodies on a grid of 4 by 12, y fastest, all along x; the grid's half-width is 0.475 pi.
 inline Suspension taylor_green_bodies() {
   constexpr int columns = 4, rows = 12;
   const double half = 0.475 * pi;
@@ -44,7 +44,7 @@ inline Suspension taylor_green_bodies() {
 // The body whose track Figure 4 shows, from (-0.497, 0.950).
 inline constexpr int coloured_body = 21;
 
-// All but the preconditioner.
+// All options but the preconditioner.
 inline Case taylor_green_case(const TaylorGreen& parameters) {
   Case c;
   c.flow = FlowKind::taylor_green;
@@ -67,10 +67,10 @@ inline SimulationOptions taylor_green_options(const TaylorGreen& parameters) {
   return options;
 }
 
-// The state at the start of a step, and what moved it from there; the last one is the end of the run.
+// The state at the start of a step, and the data of this step; the last state is the end of the run.
 struct TaylorGreenStep {
   double time = 0.0, gap_over_h = 0.0;
-  bool moved = false;  // all below are of the step from here, and 0 at the end
+  bool moved = false;  // all members below are of the step from here, and 0 at the end
   int contacts = 0, ncp_iterations = 0, gmres_iterations = 0, background_iterations = 0;
   double largest_multiplier = 0.0;
   double fastest = 0.0;  // largest |U| of a body
@@ -97,7 +97,7 @@ struct TaylorGreenRun {
   std::string failure;  // why the run ended early, or empty
 };
 
-// A numerical failure ends the run and is told in `failure`. `observe` sees every state.
+// A numerical failure ends the run and is reported in `failure`. `observe` sees every state.
 inline TaylorGreenRun run_taylor_green(const Suspension& start, const TaylorGreen& parameters,
                                        const Observer& observe = {}) {
   TaylorGreenRun run;
@@ -112,7 +112,7 @@ inline TaylorGreenRun run_taylor_green(const Suspension& start, const TaylorGree
   return run;
 }
 
-// Mean of a number of the steps that were taken.
+// Mean of a quantity over the steps.
 template <class Function>
 double mean_over_steps(const TaylorGreenRun& run, const Function& number) {
   double sum = 0.0, count = 0.0;

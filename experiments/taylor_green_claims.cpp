@@ -3,7 +3,7 @@
 //                       in the matrix of the contact problem
 //   free_*              no contact forces: when do bodies overlap?
 //   extrapolated_*      iterations of GMRES per step of a run, by preconditioner and tolerance
-//   cold                the same from nothing, at configurations of a run: flow, and contact forces
+//   cold                the same without an initial guess, at configurations of a run: flow, and contact forces
 //   points              the same at one configuration for 16 to 256 points per body
 
 #include "experiment.hpp"
@@ -38,7 +38,7 @@ Suspension first_contact() {
   return bodies;
 }
 
-// Of the largest speed, over the last ten steps: the factor by which a step multiplies it.
+// The factor by which a step multiplies the largest speed, over the last ten steps.
 double growth(const std::vector<std::vector<double>>& rows) {
   constexpr std::size_t fastest = 4, over = 10;
   const std::size_t n = rows.size();
@@ -110,7 +110,7 @@ StokesSystem system_of(const Suspension& bodies, const Solve& solve, ShapeCache&
   return {bodies, nodes, shapes, {.gmres_tolerance = solve.tolerance, .preconditioner = solve.preconditioner}};
 }
 
-// Not a number when GMRES fails, as it may where the nodes do not resolve the gaps.
+// NaN when GMRES fails, which can happen where the nodes do not resolve the gaps.
 double cold_iterations(const Suspension& bodies, const Solve& solve, ShapeCache& shapes) try {
   return system_of(bodies, solve, shapes).solve({FlowKind::taylor_green}, {}).iterations;
 } catch (const NumericalError&) {

@@ -1,5 +1,5 @@
-// The coloured body of Figure 4 up to t = 10 with several integrators and steps: how far it is from its limit for small
-// steps, and what that costs. Cases <integrator>_dt<step>; the limit is the track of rk3_dt0.0125.
+// The coloured body of Figure 4 up to t = 10 with several integrators and steps: its distance from its limit for small
+// steps, and the cost. Cases <integrator>_dt<step>; the limit is the track of rk3_dt0.0125.
 //
 // <case>.csv holds the body's track at t = 1, 2, ..., 10 and the work, <case>_timing.csv the seconds.
 

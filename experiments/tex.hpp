@@ -1,4 +1,4 @@
-// What `report` needs of LaTeX: text and numbers as source, and the numbers that a document asks for.
+// LaTeX for `report`: text and numbers as source, and the numbers that a document requests.
 #pragma once
 
 #include <algorithm>
@@ -76,8 +76,8 @@ inline std::string tex_decimal(const std::string& text) {
   return concat("$", text.substr(0, e), "\\times10^{", std::stoi(text.substr(e + 1)), "}$");
 }
 
-// A number by a format like 3f, 2g or 1e: digits, and the letter of printf. Powers of ten are written as such; not a
-// number is a dash. InputError for another format.
+// A number by a format like 3f, 2g or 1e: digits, and the letter of printf. Powers of ten are written as such; NaN is a
+// dash. InputError for another format.
 inline std::string tex_number(double value, std::string_view format) {
   if (format.size() != 2 || !std::isdigit(static_cast<unsigned char>(format[0])) ||
       std::string_view("fge").find(format[1]) == std::string_view::npos)

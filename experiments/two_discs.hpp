@@ -55,7 +55,7 @@ inline constexpr int disc_points = 32;
 inline constexpr double disc_radius = 0.5;
 inline constexpr double disc_spacing = 2.0 * pi * disc_radius / disc_points;  // h
 
-// A numerical failure ends the run and is told in `failure`.
+// A numerical failure ends the run and is reported in `failure`.
 inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
   SimulationOptions options;
   options.stepper.flow = {parameters.flow, parameters.rate};

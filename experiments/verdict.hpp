@@ -1,4 +1,4 @@
-// The verdict: what a result is against its reference value, and how many are what.
+// The verdict: the status of each result against its reference value, and the counts of each status.
 #pragma once
 
 #include <array>
@@ -31,13 +31,13 @@ struct Verdict {
   ReferenceRow reference;
   Status status;
   double got = std::nan("");
-  double error = std::nan("");  // distance from what is allowed, over the tolerance; at most 1 agrees
+  double error = std::nan("");  // distance from the allowed value, over the tolerance; agrees if at most 1
   std::string problem = {};     // why there is no number although its case has been run
 
   bool has_number() const { return status != Status::missing && status != Status::not_run && problem.empty(); }
 };
 
-// A KNOWN row that agrees is stale: its note says what is no longer true. Nothing agrees with NaN or infinity.
+// A KNOWN row that agrees is stale, because its note is no longer true. NaN and infinity never agree.
 inline void judge_number(Verdict& verdict, double got) {
   const ReferenceRow& r = verdict.reference;
   const double outside = std::isfinite(got) ? std::max({0.0, r.low - got, got - r.high}) : std::nan("");
@@ -72,14 +72,14 @@ inline Verdict judge(const ReferenceRow& row, const std::filesystem::path& resul
   return verdict;
 }
 
-// How many numbers have which status.
+// The number of rows of each status.
 struct Count {
   std::array<int, 7> of{};
 
   void add(Status status) { ++of[static_cast<std::size_t>(status)]; }
   int operator[](Status status) const { return of[static_cast<std::size_t>(status)]; }
   int numbers() const { return std::accumulate(of.begin(), of.end(), 0); }
-  // Of the table by object: numbers, agree, differ (measured), unexplained, fail or not run.
+  // Cells of the table by object: numbers, agree, differ (measured), unexplained, fail or not run.
   std::array<int, 5> cells() const {
     const Count& n = *this;
     const int agree = n[Status::pass], measured = n[Status::measured], unexplained = n[Status::unexplained];
@@ -103,8 +103,8 @@ struct Summary {
 };
 
 // "published: N numbers, A agree, D differ for a measured reason, U differ without one; exact: ...; baselines: ...;
-// not run: ...". FAIL, STALE and MISSING follow where there are any. N is the sum of what follows it and of those that
-// stand under `not run`, so that it is the same for every run.
+// not run: ...". FAIL, STALE and MISSING follow where there are any. N includes the numbers under `not run`, so that it is
+// the same for every run.
 inline std::string summary_line(const Summary& summary) {
   std::string line, not_run;
   for (const Origin origin : {Origin::published, Origin::exact, Origin::baseline}) {
@@ -144,7 +144,7 @@ inline std::string summary_csv(const Summary& summary) {
   return text;
 }
 
-// As it stands in the README, between its marks: the table, and every number that differs without a reason.
+// The README's version, with its marks: the table, and every number that differs without a reason.
 inline std::string summary_markdown(const Summary& summary) {
   std::string text = "<!-- verdict -->\n| | numbers | agree | differ (measured) | unexplained | fail or not run |\n"
                      "|---|---|---|---|---|---|\n";
@@ -158,7 +158,7 @@ inline std::string summary_markdown(const Summary& summary) {
   return text + "<!-- end of verdict -->\n";
 }
 
-// That of `make reproduce`, which leaves optional rows out, if nothing in it fails.
+// The summary of `make reproduce`, which leaves optional rows out, if nothing in it fails.
 inline Summary expected_summary(const std::vector<ReferenceRow>& rows) {
   Summary summary;
   for (const ReferenceRow& row : rows)

@@ -2,12 +2,12 @@
 //
 //   verify [results=DIR] [reference=DIR] [missing=fail|allow] [rows=all|differing] [readme=FILE]
 //
-// PASS: within the tolerance. KNOWN: out of it, within the interval of a documented deviation. STALE: a KNOWN row that is
-// within the tolerance. FAIL: all others, also a result that is not a number, cannot be read or lacks the column.
-// MISSING: the case has not been run; NOT RUN with missing=allow, and for OPTIONAL rows.
+// PASS: within the tolerance. KNOWN: outside it, but within the interval of a documented deviation. STALE: a KNOWN row that
+// is within the tolerance. FAIL: all others, also a result that is not a number, cannot be read or lacks the column.
+// MISSING: the case has not been run; NOT RUN instead with missing=allow, and for OPTIONAL rows.
 // The verdict also goes to results/verdict.csv, its table by object to results/verdict_summary.csv.
-// Exit status: 0 all pass or are known; 1 a FAIL, STALE or MISSING, or a FILE whose table by object is not that of this
-// run, which is looked at when nothing is missing; 2 wrong input.
+// Exit status: 0 all pass or are known; 1 a FAIL, STALE or MISSING, or a FILE whose table by object differs from that of
+// this run (compared when nothing is missing); 2 wrong input.
 
 #include <algorithm>
 #include <cstdio>

@@ -43,7 +43,7 @@ constexpr Column columns[] = {
     {"omega", false, "angular velocity of a fixed body, 1/time"},
 };
 
-// Names what looks like a table of another kind, by its first line that is no comment.
+// Refuses a table of another form, recognised by the first line that is no comment.
 void check_form(std::string_view content, const std::string& file_name) {
   int number = 0;
   for (const std::string_view line : split(content, '\n')) {
@@ -160,9 +160,9 @@ void check_net_force(const Table& table, const Suspension& bodies) {
          pair.gap < 0.0 ? concat("overlap by ", brief(-pair.gap)) : std::string("touch"), which, "; move them apart.");
 }
 
-// A pile of many bodies, as from a wrong unit of length or rows that are there twice, has too many pairs to look at
-// each. Two centres in one square whose diagonal is below two inradii overlap; where there are none, no place has
-// more bodies than a search for the smallest gap can look at.
+// A pile of many bodies, caused by a wrong unit of length or duplicated rows, has too many pairs to examine each. Two
+// centres in one square whose diagonal is below two inradii overlap. If there are no such centres, no place has too many
+// bodies for a search for the smallest gap.
 void check_piles(const Table& table, const Suspension& bodies) {
   constexpr std::size_t few = 200;
   if (bodies.size() <= few) return;
@@ -185,7 +185,7 @@ void check_piles(const Table& table, const Suspension& bodies) {
 
 void check_overlaps(const Table& table, const Suspension& bodies) {
   check_piles(table, bodies);
-  Suspension all = bodies;  // two fixed ones count as well
+  Suspension all = bodies;  // so that two fixed bodies count as well
   for (Body& body : all) body.fixed = false;
   const ClosestPair closest = smallest_gap(all);
   if (closest.gap <= 0.0) refuse_pair(table, closest, ", the smallest gap of all");

@@ -22,8 +22,8 @@ std::vector<std::string> key_names() {
   return names;
 }
 
-// Where a value in double quotes ends, the closing quote included; a quote inside it is written twice. Nothing where the
-// text does not begin with a quote, or has only that one.
+// The position where a value in double quotes ends, the closing quote included; a quote inside it is written twice. None if
+// the text does not begin with a quote or has only that one.
 std::size_t quoted_length(std::string_view text) {
   if (!text.starts_with('"')) return 0;
   for (std::size_t k = 1; k < text.size(); ++k) {
@@ -41,7 +41,7 @@ std::string_view without_comment(std::string_view line) {
   return trim(line.substr(0, line.find('#', value + quoted_length(line.substr(value)))));
 }
 
-// The value that is written in quotes; others as they are.
+// The value without its quotes, if it has any.
 std::string unquoted(std::string_view text, const std::string& where) {
   if (!text.starts_with('"')) return std::string(text);
   if (quoted_length(text) != text.size())
@@ -54,7 +54,7 @@ std::string unquoted(std::string_view text, const std::string& where) {
   return value;
 }
 
-// The reverse, where a file needs it.
+// The value with quotes, if a file needs them.
 std::string as_written(const std::string& value) {
   if (value == trim(value) && value.find_first_of("#\"") == std::string::npos) return value;
   std::string text = "\"";
@@ -94,7 +94,7 @@ void add_setting(std::string_view setting, const std::string& where, bool in_arg
   }
 }
 
-// Everything given, arguments in the place of what the file says; `end` is the file's last line.
+// All keys given; arguments replace the values of the file. `end` is the file's last line.
 GivenKeys collect(std::string_view content, const std::filesystem::path& file, const std::vector<std::string>& overrides,
                   std::string& end) {
   if (content.ends_with('\n')) content.remove_suffix(1);
@@ -151,7 +151,7 @@ Case parse_case(std::string_view content, const std::filesystem::path& file, con
       result.accuracy = std::max(1e-11, std::min(standard_accuracy, solver_part * *result.tolerance));
   }
   check_case(result, given);
-  if (is_continued) {  // from here on, and in its record, a case like others
+  if (is_continued) {  // from here on, and in its record, it is a case like others
     result.bodies = result.earlier->file.string();
     result.start_from.clear();
   }

@@ -1,4 +1,4 @@
-// What a case may say: limits of the values and of their combinations.
+// Limits of the values of a case and of their combinations.
 #include <cmath>
 
 #include "case_keys.hpp"
@@ -9,7 +9,7 @@ namespace stokes {
 
 namespace {
 
-// Ends the reading where a limit does not hold; the key must have been given then.
+// Throws if a limit does not hold; the key must have been given then.
 struct Limit {
   const GivenKeys& given;
 
@@ -18,8 +18,8 @@ struct Limit {
   }
 };
 
-// A key that does nothing is refused, with two exceptions. A value in the file that an argument for another key leaves
-// without effect is a warning: arguments try variants of one file. A default in a file says nothing wrong.
+// A key without effect is refused, with two exceptions. If an argument for another key makes a value of the file idle, this
+// is a warning, because arguments try variants of one file. If a value of the file is the default, nothing is reported.
 void check_effects(Case& c, const GivenKeys& given) {
   const Case defaults;
   for (const CaseKey& key : case_keys()) {
@@ -29,13 +29,13 @@ void check_effects(Case& c, const GivenKeys& given) {
     const auto decider = given.find(idle->key);
     const bool by_argument = decider != given.end() && decider->second.in_argument && !value->second.in_argument;
     if (!by_argument) refuse(key.name, value->second, idle->otherwise);
-    if (idle->key == "start_from") continue;  // which is given to replace them
+    if (idle->key == "start_from") continue;  // it is given to replace them
     c.warnings.push_back(concat(value->second.where, ": ", key.name, " = ", quote(value->second.text), " has no effect: ",
                                 decider->second.where));
   }
 }
 
-// Of unbounded fluid.
+// Limits in unbounded fluid.
 void check_flow(const Case& c, const Limit& limit) {
   if (c.flow == FlowKind::linear) {
     limit(limit.given.contains("gradient"), "flow", "needs gradient = a b c d for u = rate (a x + b y, c x + d y).");
@@ -65,7 +65,7 @@ void check_geometry(const Case& c, const Limit& limit) {
   limit(c.wall_points <= 65536, "wall_points", "is above 65536; try 1024.");
 }
 
-// Nodes by an accuracy, or fixed ones.
+// Nodes chosen by an accuracy, or fixed nodes.
 void check_resolution(const Case& c, const Limit& limit) {
   if (!c.accuracy) {
     limit(c.points_per_body >= 8, "points_per_body", "is below 8; try 32.");
@@ -115,7 +115,7 @@ void check_separation(const Case& c, const Limit& limit) {
   }
 }
 
-// Others than forward Euler need the complete fluid and exact gaps; an error that is held needs solutions that are better.
+// Integrators other than forward Euler need the complete fluid and exact gaps; a tolerance needs more accurate solutions.
 void check_integrator(const Case& c, const Limit& limit) {
   if (c.integrator != IntegratorKind::euler) {
     limit(c.coupling == Coupling::global, "coupling", "needs integrator = euler: its densities lag one step behind.");
@@ -156,7 +156,7 @@ void check_case(Case& c, const GivenKeys& given) {
   limit(c.stiv_vertices == 0 || c.stiv_vertices >= 8, "stiv_vertices",
         "must be at least 8, or 0 for 4 points_per_body.");
   limit(c.stiv_vertices <= 65536, "stiv_vertices", "is above 65536; try 128.");
-  // The sums' own error; below it, GMRES solves for what they are, not for the flow.
+  // Below the error of the sums themselves GMRES would solve for this error, not for the flow.
   limit(c.summation != Summation::fmm || c.gmres_tolerance >= 1e-11, "gmres_tolerance",
         "is below 1e-11, which multipole sums with their error of 1e-12 cannot serve; take summation = direct.");
   check_output(c, limit);

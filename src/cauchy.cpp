@@ -9,8 +9,8 @@ namespace stokes {
 
 namespace {
 
-// Of a linear map that commutes with turning the nodes, from the image of the first unit vector: the image of each
-// next one is turned by as many more nodes. All maps here take real values to real ones.
+// The matrix of a linear map that commutes with rotations of the nodes, from the image of the first unit vector. The images
+// of the others are rotations of it. All maps here take real values to real values.
 Matrix matrix_of_map(const ComplexVector& first, int columns) {
   const Eigen::Index rows = first.size(), step = rows / columns;
   Matrix m(rows, columns);
@@ -65,8 +65,8 @@ Complex winding(const Curve& curve, Side side) {
   return sum;
 }
 
-// p_k over Sum_k p_k, or on the exterior side, where the rule is applied to zeta f, which tends to a constant at
-// infinity, over Sum_k p_k - winding. Both divided by p of the nearest node, which may be infinite.
+// p_k / Sum_k p_k, and p_k / (Sum_k p_k - winding) on the exterior side, where the rule is applied to zeta f, which tends
+// to a constant at infinity. Both are divided by p of the nearest node, which may be infinite.
 void barycentric_weights(const Curve& curve, Complex winding, const PoleTerms& terms,
                          Eigen::Ref<ComplexVector> weight) {
   const Eigen::Index j = terms.nearest;
@@ -94,10 +94,10 @@ CloseEvaluation::CloseEvaluation(const Curve& curve, Curve fine_curve, Side side
   refine_second_ = matrix_of_map(fourier_derivative(first), n).transpose();
 }
 
-// From six fine spacings on the trapezoid rule itself is exact to round-off, exp(-12 pi). Nearer, boundary values v_j are
-// continued with barycentric weights w_j, the v_j by the compensated trapezoid rule on the fluid side,
+// From six fine spacings on the trapezoid rule itself is exact to round-off, exp(-12 pi). At nearer targets, boundary
+// values v_j are continued with barycentric weights w_j. The compensated trapezoid rule gives the v_j on the fluid side,
 //   v_j = (1/2 pi i) ( Sum_{k != j} (tau_k - tau_j)/(zeta_k - zeta_j) dz_k + tau_alpha,j 2 pi/N ) + { tau_j inside }.
-// The weights being a common factor times p_j = zeta'_j/(zeta_j - z), partial fractions leave of the double sum
+// The weights are a common factor times p_j = zeta'_j/(zeta_j - z), so that partial fractions reduce the double sum to
 //   Sum_j w_j v_j = (1/i N) Sum_k tau_k w_k ( Sum_{j != k} p_j + 2 Sum_{j != k} zeta'_j/(zeta_k - zeta_j) )
 //                   + (1/i N) Sum_j w_j tau_alpha,j + { Sum_j w_j tau_j inside }.
 CloseEvaluation::CauchyColumns CloseEvaluation::cauchy_columns(const std::vector<Target>& z) const {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view first_line = "checkpoint of simulate, format 5";
 
-// What has to be the same for a run to go on: the case, and every number of the bodies at its beginning.
+// What must be equal for a run to continue: the case, and every number of the initial bodies.
 std::vector<std::string> description_of(const Case& c, const Suspension& initial) {
   std::vector<std::string> lines;
   for (const auto& [key, value] : describe(c)) lines.push_back(concat(key, " = ", value));

@@ -9,7 +9,7 @@ namespace stokes {
 
 namespace {
 
-// The closed forms lose digits like |1 - p|^-2, one of them like 1/|p|; there the series are summed.
+// The closed forms lose digits like |1 - p|^-2, one of them like 1/|p|; where that is too much, the series are summed.
 constexpr double near_one = 0.01, near_zero = 0.1;
 
 // With h = N/2, given p^h and p^(h-1):
@@ -84,7 +84,7 @@ VelocityRows CircleEvaluation::velocity_rows(const std::vector<Complex>& z) cons
 CircleFlow::CircleFlow(double radius, Side side, const ComplexVector& density) : radius_(radius), side_(side) {
   ComplexVector c = fourier_coefficients(density);
   const Eigen::Index n = c.size(), half = n / 2;
-  c[half] *= 0.5;  // half of it each way round
+  c[half] *= 0.5;  // one half for each sign of its frequency
   first_ = c[1];
   const bool inside = side == Side::interior;
   for (Eigen::Index m = 0; m <= half; ++m) {

@@ -60,7 +60,7 @@ void DisjointSets::join(int first, int second) {
 void balance_clusters(const std::vector<Pair>& contacts, std::vector<Wrench>& wrenches,
                       const std::vector<int>& fixed) {
   const int bodies = static_cast<int>(wrenches.size());
-  std::vector<int> held = fixed;  // one of a cluster is enough
+  std::vector<int> held = fixed;  // one such body in a cluster is enough
   for (int body : fixed)
     if (body < 0 || body >= bodies)
       throw InputError(concat("the fixed bodies are some of 0 to ", bodies - 1, "; got ", body));

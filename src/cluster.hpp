@@ -24,15 +24,15 @@ class DisjointSets {
 // cluster. In each, one body is given the force that balances all the others,
 //   F_new = - Sum_{others of the cluster} F,
 // and its torque is multiplied by |F_new| / |F_old|. That body is the one in contact with the most other
-// bodies; of equals the one with the largest |F_old|; of equals the one with the lowest index.
+// bodies. Ties go to the largest |F_old|, then to the lowest index.
 // Afterwards the forces of a cluster sum to zero up to the rounding of that sum. Torques do not balance.
 //
-// The ratio of two forces that are zero up to rounding says nothing, and a body between two others often
-// has none. So the torque is left as it is where |F_old|, or |F_new - F_old|, is at most 1e-12 of the sum
+// The ratio of two forces that are zero up to rounding is meaningless, and a body between two others often has no net
+// force. The torque is therefore left as it is where |F_old|, or |F_new - F_old|, is at most 1e-12 of the sum
 // of |F| over the others: there is nothing to scale, or the cluster was in balance.
 //
-// A cluster with a fixed body in it, or with a body that touches the container, stays as it is: these bear
-// whatever the others do not balance.
+// A cluster with a fixed body in it, or with a body that touches the container, stays as it is: the fixed body or the
+// container bears whatever the others do not balance.
 //
 // contacts: pairs of bodies, in any order; a pair listed more than once is one contact. The second of a pair may be
 // container_index.

@@ -8,7 +8,7 @@ namespace stokes {
 
 namespace {
 
-// The mobility across a small gap is 1e-3 and less of what each of the two flows in it is alone.
+// The mobility across a small gap is at most 1e-3 of the contribution of each of the two flows in it.
 constexpr double column_tolerance = 1e-6;
 
 bool same(const std::vector<Wrench>& u, const std::vector<Wrench>& v) {

@@ -1,4 +1,4 @@
-// The fluid at given poses: nodes, equations, the contact-free solution, and answers to forces. It knows nothing of time
+// The fluid at given poses: nodes, equations, the contact-free solution, and responses to forces. It knows nothing of time
 // steps.
 #pragma once
 
@@ -15,11 +15,11 @@ namespace stokes {
 
 // Velocities with the density that belongs to them.
 struct Response {
-  std::vector<RigidVelocity> velocity;  // of a fixed body that of its surface, 0 in the answer to a contact
+  std::vector<RigidVelocity> velocity;  // for a fixed body that of its surface, 0 in the response to a contact
   ComplexVector density;
 };
 
-// What was spent since the latest step that was accepted, on every attempt.
+// Work of all attempts since the latest accepted step.
 struct Effort {
   int gmres_iterations = 0, ncp_iterations = 0;
   int stokes_solves = 0;  // with any forces
@@ -35,14 +35,14 @@ struct Fluid {
   Effort effort{};
 };
 
-// The nodes of the bodies and the container without an accuracy.
+// Nodes of the bodies and the container if no accuracy is given.
 std::vector<Discretisation> given_nodes(const Suspension& bodies, const StepperOptions& options);
 
 class Configuration {
  public:
-  // Everything that drives the fluid is multiplied by `driving`. `path`: where on the way through configurations these
-  // poses are (FluidMemory). Solves the contact-free problem from the densities of the memory. NumericalError when GMRES
-  // fails.
+  // Solves the contact-free problem, starting from the densities of the memory. Everything that drives the fluid is
+  // multiplied by `driving`. `path`: the position of these poses along the way of the run (FluidMemory). NumericalError
+  // when GMRES fails.
   Configuration(Suspension bodies, double path, double driving, Fluid& fluid, const FluidMemory& memory);
 
   const Suspension& bodies() const { return bodies_; }
@@ -54,19 +54,19 @@ class Configuration {
   int background_iterations() const { return background_iterations_; }
   double data_norm() const { return data_norm_; }  // of the contact-free problem
 
-  // With an accuracy: what the boundaries needed, the estimated error of velocities, the boundaries that do not keep it.
-  // With fixed nodes: what they do not resolve.
+  // With an accuracy: the resolution that the boundaries needed, the estimated error of the velocities, and the number of
+  // boundaries that miss the accuracy. With fixed nodes: what these do not resolve.
   const std::vector<Resolution>& resolution() const { return resolution_; }
   double estimated_error() const { return estimated_error_; }
   int unresolved() const { return unresolved_; }
   const std::vector<Shortfall>& shortfalls() const { return shortfalls_; }
 
-  // The response of the suspension to wrenches, one per body, solved from the density `guess`, once: asked again, it is
-  // remembered. The tolerance is relative to the data or to `scale`, if given.
+  // The response of the suspension to wrenches, one per body. The solve starts from the density `guess`. A repeated call
+  // returns the stored response. The tolerance is relative to the data or to `scale`, if given.
   const Response& respond(const std::vector<Wrench>& wrenches, const ComplexVector& guess, double scale = 0.0);
-  // That of the bodies around the wrenches, as if there were no others.
+  // The response of the bodies around the wrenches, as if there were no others.
   Response respond_nearby(const std::vector<Wrench>& wrenches) const;
-  // That of each body as if it were alone. Its densities answer a rigid motion with nothing: they are zero.
+  // The response of each body as if it were alone. Its density is zero, since the completion flow is a rigid motion there.
   Response respond_alone(const std::vector<Wrench>& wrenches) const;
 
   // Every full response so far, the latest last.

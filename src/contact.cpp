@@ -9,8 +9,8 @@ namespace stokes {
 
 namespace {
 
-// When no separation is asked for: of the smallest semi-axis, below which the sum over nodes that face each other
-// loses more digits than a solution to 1e-8 can spare, and of the distance from the origin, whose
+// Without a given separation: a fraction of the smallest semi-axis, below which the sum over nodes that face each other
+// loses more digits than a solution to 1e-8 can spare, and a fraction of the distance from the origin, whose
 // round-off the tolerance must exceed.
 constexpr double smallest_separation = 1e-7, smallest_of_extent = 1e-10;
 
@@ -30,7 +30,7 @@ GapCollector::GapCollector(const Suspension& start, const Suspension& at, double
   tolerance_ = tolerance * separation_;
 }
 
-// Where the body ends inside, every plane that touches the wall is behind it: a hit on the way adds nothing.
+// If the body ends inside, every tangent plane of the wall is behind it, so a hit on the way adds nothing.
 ContactConstraint GapCollector::evaluate_wall(int a, const Pose& trial) const {
   const Body& body = at_[a];
   const Container& container = *start_.container;
@@ -51,15 +51,15 @@ ContactConstraint GapCollector::evaluate(int a, int b, const std::vector<Pose>& 
                             gradient(at, at_[a].pose, at_[b].pose)};
   if (after.value < separation_ && dot(before.normal, after.normal) > 0.0) return contact;
   // Apart at the end, or overlapping so far that the normal has turned: did they pass through each other?
-  // Half the separation: a dip below it within a step is a pass, one above it the next step restores.
+  // The threshold is half the separation: a dip below it within a step is a pass; the next step restores any other.
   const auto hit = first_hit(body_a.shape, body_a.pose, trial[a], body_b.shape, body_b.pose, trial[b],
                              0.5 * separation_);
   if (!hit) return contact;
   const SeparatingPlane plane = separating_plane(hit->gap, interpolate(body_a.pose, trial[a], hit->tau),
                                                  interpolate(body_b.pose, trial[b], hit->tau));
   const double value = stokes::separation(plane, trial[a], trial[b]) - separation_;
-  // Bodies that roll over each other dip below half the separation and part again: the frozen plane then
-  // says so, and the end counts.
+  // Bodies that roll over each other dip below half the separation and part again. The frozen plane then
+  // is not violated, and the gap at the end counts.
   if (value < contact.value) contact.value = value, contact.gradient = gradient(plane, trial[a], trial[b]);
   return contact;
 }

@@ -23,7 +23,7 @@ enum class ContactModel {
   stiv,  // the paper's: space-time interference volumes between polygons, clusters balanced (stiv.hpp, cluster.hpp)
 };
 
-// Active contacts may miss the separation by this part of it: the gap itself, or one vertex of a volume.
+// An active contact may miss the separation by this fraction of it: its gap, or the depth of one vertex of a volume.
 inline constexpr double contact_tolerance = 1e-4;
 
 struct ContactConstraint {

@@ -13,8 +13,8 @@ namespace {
 // carries vertices across corners.
 constexpr int stiv_increments_after = 8;
 
-// By what the base poses are ahead of the start of the step, as a velocity over the length: with it,
-// start + length (shift + w) = base + length w. Empty if they are the start.
+// The displacement of the base poses from the start of the step, over the length, as a velocity: with it
+// start + length (shift + w) = base + length w. Empty if the base is the start.
 std::vector<RigidVelocity> shift_of(const Suspension& start, const std::vector<Pose>& base, double length) {
   std::vector<RigidVelocity> shift(start.size());
   bool ahead = false;

@@ -1,4 +1,4 @@
-// The work that contact forces do on the bodies by the motion that they make.
+// The power of contact forces in the motion that they cause.
 #pragma once
 
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace stokes {
 
-// What to write where nodes do not resolve a gap.
+// Advice where nodes do not resolve a gap.
 inline constexpr const char* finer_nodes = "write accuracy = 1e-4 in place of points_per_body, or a smaller accuracy";
 
-// A fluid gives way to forces: with the motions `with` and `without` the contact forces and torques on the bodies,
+// In a viscous fluid, with the motions `with` and `without` the contact forces and torques on the bodies,
 //   power = Sum_i (F_i . (U_i - U_i') + L_i (omega_i - omega_i')) >= 0.
-// A single body may move against its contact force, pushed by others; all together cannot. Nothing, or, where the power is
-// negative, the end of a message: the power, the body with the most negative part of it, and what to write instead. All
-// arguments have one entry for each body.
+// A single body may move against its contact force, pushed by others; the sum cannot be negative. Returns an empty string
+// or, if the power is negative, the end of a message: the power, the body with the most negative part of it, and advice.
+// All arguments have one entry for each body.
 std::string negative_work(const std::vector<Wrench>& contact, const std::vector<RigidVelocity>& with,
                           const std::vector<RigidVelocity>& without);
 

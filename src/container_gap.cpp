@@ -7,14 +7,14 @@ namespace stokes {
 
 namespace {
 
-// The point (a cos, b sin) of an ellipse, a > b, that maximises |q + point|, for q in the first quadrant, where
-// it then is too. With a multiplier a^2 + m of the constraint cos^2 + sin^2 = 1,
+// The point (a cos, b sin) of an ellipse, a > b, that maximises |q + point|, for q in the first quadrant. The point is then
+// in this quadrant, too. With a multiplier a^2 + m of the constraint cos^2 + sin^2 = 1,
 //   cos = a q_1 / m,  sin = b q_2 / (m + a^2 - b^2),
 // and the largest m that meets the constraint belongs to the maximum. There F(m) = cos^2 + sin^2 - 1 is convex and
-// falls, so that Newton's iteration from a smaller m climbs to the root and cannot leave it.
+// decreasing, so that Newton's iteration from a smaller m increases to the root and cannot pass it.
 Complex farthest_in_quadrant(double a, double b, Complex q) {
   const double difference = (a - b) * (a + b);
-  // Below 1e-17 a a component changes no distance; the root stays away from m = 0.
+  // A component below 1e-17 a changes no distance; this bound keeps the root away from m = 0.
   const double along = a * std::max(q.real(), 1e-17 * a), across = b * q.imag();
   double m = std::max(along, across - difference), c = 0.0, s = 0.0;
   // At worst, around the cusp of the evolute, m grows by half in each of some 35 iterations before it converges.

@@ -17,7 +17,7 @@ namespace {
 
 std::string system_message() { return std::generic_category().message(errno); }
 
-// Special files have nothing to bring to a disk.
+// Special files cannot be written to a disk.
 bool is_on_disk(int file) { return fsync(file) == 0 || errno == EINVAL || errno == ENOTSUP; }
 
 class Parser {
@@ -143,7 +143,7 @@ class Parser {
   Table table_;
 };
 
-// The new name of a file is on disk once its folder is. Not every file system can do that for a folder.
+// The new name of a file is on disk once its folder is. Not every file system supports this for a folder.
 void sync_folder(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   const int opened = open(folder.c_str(), O_RDONLY | O_CLOEXEC);

@@ -62,7 +62,7 @@ class DiscreteShape {
   // (U, omega) = G^-1 B_w^T eta.
   RigidVelocity rigid_part(const Complex* density) const;
 
-  // Solution of the boundary's own block for right-hand sides in the columns of b, 2N reals each, in their precision.
+  // Solution of the boundary's own block for right-hand sides in the columns of b, 2N reals each, in the precision of b.
   template <class Rhs>
   auto solve_own(const Rhs& b) const {
     using Scalar = typename Rhs::Scalar;
@@ -86,7 +86,7 @@ class DiscreteShape {
   bool has_series() const;
 
   // Flow of the double layer of a density at points z (both in the body frame) in the fluid or on the boundary, at any
-  // distance: velocity, pressure and gradient. Cost O(N^2) and, per point, of O(N) (Cauchy) or O(N^1.5).
+  // distance: velocity, pressure and gradient. Cost O(N^2), and per point O(N) (Cauchy) or O(N^1.5) (interpolation).
   std::vector<PointFlow> close_flow(const ComplexVector& density, const std::vector<Complex>& z) const;
 
   Shape shape;
@@ -101,15 +101,15 @@ class DiscreteShape {
  private:
   Matrix own_block() const;
 
-  // Of the block's inverse: the matrix, or on a circle, where the block is -1/2 plus a map of the motions
-  // e1, e2, n, t to themselves, W core W^T - 2 with these motions W at the nodes.
+  // The inverse of the block: a matrix or, on a circle, W core W^T - 2. There the block is -1/2 plus a map of the motions
+  // e1, e2, n, t into themselves, and W are these motions at the nodes.
   Matrix inverse_;
   Eigen::Matrix<double, Eigen::Dynamic, 4> motions_;
   Eigen::Matrix4d core_;
   std::variant<CloseEvaluation, CircleEvaluation, InterpolationEvaluation> close_;
 };
 
-// A discrete shape where it stands, and the place of its density among those of a suspension.
+// A discrete shape at its pose, and the position of its density among those of a suspension.
 struct PlacedShape {
   std::shared_ptr<const DiscreteShape> shape;
   Pose pose;
@@ -153,7 +153,7 @@ ComplexVector move_densities(const ComplexVector& density, const std::vector<Dis
                              const std::vector<Discretisation>& to);
 
 // The shapes in use. Each distinct shape with nodes at equal steps is discretised and factorised once. Shapes with
-// clusters belong to one configuration and are made anew.
+// clusters belong to one configuration and are not kept.
 class ShapeCache {
  public:
   explicit ShapeCache(NearSingular near_singular = NearSingular::cauchy) : near_singular_(near_singular) {}

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// How far a boundary is below its tangent at alpha, at the distance x along it; `way`: +1 or -1. Infinite beyond its end.
+// Distance of a boundary from its tangent at alpha, at the distance x along it; `way`: +1 or -1. Infinite beyond its end.
 double depth(const Shape& shape, double alpha, int way, double x) {
   const Complex slope = shape.derivative(alpha), tangent = slope / std::abs(slope);
   double end = way * (shape.parameter(static_cast<double>(way) * tangent) - alpha);
@@ -34,7 +34,7 @@ double width(const Shape& a, const Shape& b, const Facing& f, double side) {
   const double g = std::max(f.gap, 1e-9 * std::min(a.inradius(), b.inradius()));
   double nearest = infinity;
   for (const int way : {-1, +1}) {
-    // Along the same direction the parameter of a body in front runs the other way.
+    // The parameter of a body in front runs in the opposite direction.
     const auto rise = [&](double x) {
       const double below = depth(a, f.alpha_a, way, x);
       return below == infinity ? infinity : below + side * depth(b, f.alpha_b, -static_cast<int>(side) * way, x);

@@ -22,7 +22,7 @@ Facing facing(const Body& a, const Container& b);
 
 // The width W of the gap: the shortest length over which densities vary there. W = sqrt(x^2 + g^2), where x is the
 // distance along the tangent at which the boundaries are 2 g apart: sqrt(2 g/curvature) for small gaps g. If the two
-// directions differ, the shorter x counts; x ends where one of the bodies does. If the bodies overlap, W is that of a
+// directions differ, the shorter x counts; x is limited by the extent of the bodies. If the bodies overlap, W is that of a
 // gap of 1e-9 times the smaller inradius. Accurate to 5 %. Cost: some 10 microseconds.
 double contact_width(const Facing& facing, const Body& a, const Body& b);
 double contact_width(const Facing& facing, const Body& a, const Container& b);

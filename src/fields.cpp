@@ -34,7 +34,7 @@ bool in_fluid(const Suspension& bodies, Complex x) {
   });
 }
 
-// Of each body on the fluid: of a free one the given and the contact force, of a fixed one its reaction.
+// Wrench of each body on the fluid: the given and the contact force of a free body, the reaction of a fixed one.
 std::vector<Wrench> wrenches_on_fluid(const Suspension& bodies, const std::vector<Wrench>& contact,
                                       const std::vector<Wrench>& reaction) {
   std::vector<Wrench> wrenches;

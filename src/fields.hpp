@@ -37,8 +37,8 @@ GridFlow flow_on_grid(const StepRecord& record, const StepperOptions& options, c
 // Writes the flow of a record on the square around the container or on the smallest square around the bodies with a
 // body's length to spare:
 //   x,y,u,v,p,sigma_xx,sigma_xy,sigma_yy,inside
-// inside is 1 or 0, and all but x and y is nan where it is 1. A function of its arguments alone. Errors as above, and
-// NumericalError on a write error.
+// inside is 1 or 0; where it is 1, all columns but x and y are nan. The file depends only on the arguments. Errors as
+// above, and NumericalError on a write error.
 void write_fields(const std::filesystem::path& path, const StepRecord& record, const StepperOptions& options, int points);
 
 }  // namespace stokes

@@ -53,7 +53,7 @@ void DensityHistory::append(Density density) {
 }
 
 ComplexVector DensityHistory::extrapolated(double path, const std::vector<Discretisation>& nodes) const {
-  std::vector<const Density*> known;  // of several at one place, the newest
+  std::vector<const Density*> known;  // of several with one path the newest
   for (auto d = densities_.rbegin(); d != densities_.rend(); ++d) {
     const auto close = [&d](const auto* k) { return std::abs(k->path - d->path) <= 1e-9 * std::abs(d->path); };
     if (std::none_of(known.begin(), known.end(), close)) known.push_back(&*d);

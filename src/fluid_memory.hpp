@@ -1,5 +1,5 @@
-// What the solutions of earlier steps leave to later ones: densities to start from. They live in the frames of their
-// boundaries, so that they are already turned with the bodies.
+// Densities of earlier steps, from which later solves start. They are kept in the frames of their boundaries and therefore
+// turn with the bodies.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace stokes {
 
 struct Density {
-  double path = 0.0;                  // where on the way through configurations: sum of driving times dt
+  double path = 0.0;                  // position along the way of the run: the sum of driving times dt
   std::vector<Discretisation> nodes;  // one per boundary
   ComplexVector value;
 
@@ -25,8 +25,8 @@ class DensityHistory {
   void append(Density density);
   bool empty() const { return densities_.empty(); }
 
-  // The polynomial through them in the path, at `path`: the flow may turn back, and the first step back starts from what
-  // was there. Zero without any.
+  // The polynomial in the path through these densities, at `path`. If the flow is reversed, the first step back therefore
+  // starts from the density that was there. Zero if there are no densities.
   ComplexVector extrapolated(double path, const std::vector<Discretisation>& nodes) const;
 
   void save(StateWriter& writer) const;

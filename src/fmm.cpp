@@ -15,8 +15,8 @@ namespace stokes {
 
 namespace {
 
-// The error falls by 2.09 a term, from 0.35 (measured, the worst over point sets and quantities): four
-// times the accuracy asked for.
+// The error falls by a factor of 2.09 per term, from 0.35 (measured, the worst over point sets and quantities); the order
+// is for a quarter of the requested error.
 int order_for(double tolerance) {
   if (!(tolerance >= 1e-13 && tolerance <= 0.1)) {
     throw InputError(concat("fast multipole method: the tolerance is ", tolerance,
@@ -25,7 +25,7 @@ int order_for(double tolerance) {
   return static_cast<int>(std::ceil(std::log(1.4 / tolerance) / std::log(2.09)));
 }
 
-// Measured: between 20 and 60 points a leaf the time varies by a tenth, the optimum grows with the order.
+// Measured: between 20 and 60 points per leaf the time varies by a tenth; the optimum grows with the order.
 int leaf_size_for(int order) { return 40 + order; }
 
 // log(|s|^2) - 1: what a_0 contributes to A_0 at a distance s.

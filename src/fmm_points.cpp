@@ -75,7 +75,7 @@ ComplexPack sum(ComplexPack a, ComplexPack b) { return {a.re + b.re, a.im + b.im
 ComplexPack difference(ComplexPack a, ComplexPack b) { return {a.re - b.re, a.im - b.im}; }
 Pack squared(ComplexPack a) { return a.re * a.re + a.im * a.im; }
 
-// Values at Z of phi, its derivatives with respect to Z, psi and its derivative; the flow they make.
+// Values at Z of phi, its derivatives with respect to Z, psi and its derivative; and the flow of these.
 struct Goursat {
   ComplexPack phi, phi1, psi, phi2{}, psi1{};
 

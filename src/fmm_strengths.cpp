@@ -27,7 +27,7 @@ void SortedStrengths::sort_stresslets(const SortedPoints& sources, const SourceS
       ex_[k] = (*s.density)[j].real() * (1.0 / pi), ey_[k] = (*s.density)[j].imag() * (1.0 / pi);
       sum += 0.0 * nx_[k] + 0.0 * ny_[k] + 0.0 * ex_[k] + 0.0 * ey_[k];
     }
-    if (sum != 0.0) finite = false;  // a product of zero and no number is no number
+    if (sum != 0.0) finite = false;  // zero times infinity or nan is nan
   });
   if (!finite) check_strengths_finite(s);
   stresslets_ = {sources.x.data(), sources.y.data(), nx_.data(), ny_.data(), ex_.data(), ey_.data()};

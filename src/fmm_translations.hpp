@@ -5,8 +5,8 @@
 // (psi relative to c), and the expansions, all coefficients in units of phi,
 //   multipole  phi = a_0 log Z + Sum_{k=1}^P a_k Z^-k,  psi likewise with b and b_0 = -conj(a_0),
 //   local      phi = Sum_{l=0}^P A_l Z^l,               psi likewise with B.
-// Of the logarithms only 2 a_0 log|z - c| acts on u; together with the constant -a_0 that belongs to every
-// Stokeslet it is filed under A_0, so no branch is ever chosen.
+// Of the logarithms only 2 a_0 log|z - c| acts on u. It is added to A_0, together with the constant -a_0 that belongs to
+// every Stokeslet, so that no branch has to be chosen.
 //
 // A translation by s (in units of h of the larger box) first moves the centre of psi, with r = 2s, the shift in units of
 // the child, from child to parent, and r = s between boxes of one size:
@@ -16,7 +16,7 @@
 //   multipole to multipole  a'_l = s^l  [-a_0/l + Sum_{k=1}^l C(l-1, k-1) (2s)^-k a_k]
 //   multipole to local      A_l  = s^-l [-a_0/l + Sum_{k=1}^P (-1)^k C(l+k-1, k-1) s^-k a_k]
 //   local to local          A'_l = (2s)^-l Sum_{k=l}^P C(k, l) s^k A_k
-// One matrix serves all boxes; the diagonals depend on the place of the two boxes only.
+// One matrix serves all boxes; the diagonals depend only on the relative position of the two boxes.
 #pragma once
 
 #include <array>

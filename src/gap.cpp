@@ -62,10 +62,10 @@ struct Arc {
     if (bound > 0.0) bound = std::sqrt(std::min(dot(l.reach, l.reach), dot(r.reach, r.reach)));
   }
 
-  // Whether s'' = -s - R_A - R_B is surely negative all over the arc. For an arc of width w and both ends'
-  // largest height h, heights in between are at most h / cos(w/2) (a support function is convex when
-  // extended to all vectors), hence -s at most its end values' maximum / cos(w/2), and, since an
-  // ellipse has R = a^2 b^2 / h^3, each R is at least its end values' minimum times cos^3(w/2).
+  // True if s'' = -s - R_A - R_B is certainly negative all over the arc. For an arc of width w and both ends'
+  // largest height h, heights in between are at most h / cos(w/2), because a support function is convex when
+  // extended to all vectors. Hence -s is at most the maximum of its end values / cos(w/2). Since an
+  // ellipse has R = a^2 b^2 / h^3, each R is at least the minimum of its end values times cos^3(w/2).
   bool concave() const {
     const double cosine_squared = 0.5 * (1.0 + dot(left.n, right.n));
     const double radius = std::min(left.radius_a, right.radius_a) + std::min(left.radius_b, right.radius_b);
@@ -201,8 +201,8 @@ Interval meeting_interval(const Motion& motion, double distance) {
   return {std::max(0.0, (middle - half) / speed), std::min(1.0, (middle + half) / speed)};
 }
 
-// The longest safe advance from tau, zero if the separation along n is there within `tolerance` of the
-// target: meanwhile that separation, and with it the gap, stays above the target, because for an ellipse
+// The longest safe advance from tau; zero if the separation along n at tau is within `tolerance` of the
+// target. During the advance that separation, and with it the gap, stays above the target: for an ellipse
 // of long and short semi-axis a and b, |dh/dtheta| <= a - b bounds its rate of change from below, and
 // d^2 h/dtheta^2 <= a^2/b - b its second derivative.
 double safe_advance(const Motion& motion, Complex n, double tau, double target, double tolerance) {
@@ -249,9 +249,9 @@ std::optional<Hit> first_hit(const Shape& shape_a, const Pose& a_start, const Po
     }
     const auto advance = [&] { return safe_advance(motion, hit.gap.normal, tau, target, 0.5 * tolerance); };
     if (target < threshold) {
-      tau += 0.5 * advance();  // about to the largest gap before it may be back at the target
+      tau += 0.5 * advance();  // about the time of the largest gap before it can be back at the target
     } else {
-      // Along one normal as far as it leads: that costs much less than a gap with a new one.
+      // As far as one normal leads, which costs much less than a gap with a new normal.
       for (int steps = 0; steps < 64 && tau < meeting.end; ++steps) {
         const double step = advance();
         if (step == 0.0) break;

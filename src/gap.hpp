@@ -2,9 +2,9 @@
 //
 // With the support functions h of the bodies, d = c_B - c_A and a unit vector n,
 //   s(n) = <n, d> - h_A(n) - h_B(-n)
-// is the separation of the bodies along n, and their gap is its maximum over n: the distance of separated
-// bodies; minus the penetration depth, the shortest translation that parts them, of overlapping ones. It is
-// smooth through contact; in deep overlap it has kinks where two directions tie.
+// is the separation of the bodies along n, and their gap is its maximum over n. It is the distance of separated bodies. For
+// overlapping bodies it is minus the penetration depth, the shortest translation that parts them. The gap is smooth through
+// contact; in deep overlap it has kinks where two directions tie.
 // A body is an ellipse or a disc of any aspect ratio.
 #pragma once
 
@@ -52,27 +52,25 @@ struct Hit {
 };
 
 // The first tau in [0, 1] at which the gap falls to the threshold (>= 0) while both bodies move linearly in
-// centre and angle; none if it stays above. Neither the way nor the rotation needs to be small: bodies
-// that end apart after passing through each other are a hit.
+// centre and angle; none if it stays above. Displacements and rotations need not be small: bodies that end apart after
+// passing through each other are a hit.
 //
 // Within the tolerance e = max(1e-3 threshold, 1e-12 (circumradius_A + circumradius_B)):
 //   * a hit has threshold <= gap <= threshold + e, and the gap was above the threshold before;
 //   * without a hit the gap never is below the threshold.
-// A pair that starts with a gap g0 <= threshold + e is a hit at tau = 0 if the initial rate of its gap,
-// kept over the whole step, takes more than e from it. Otherwise it may separate: until it is found above
-// threshold + e it is held to g0 instead of the threshold (a hit then has g0 - 2e <= gap <= g0 - e), and
-// from there on to the threshold. For g0 >= 0 this misses no pass-through either.
+// A pair that starts with a gap g0 <= threshold + e is a hit at tau = 0 if the initial rate of its gap would reduce the gap
+// by more than e over the whole step. Otherwise it may separate. Until its gap exceeds threshold + e, g0 replaces the
+// threshold (a hit then has g0 - 2e <= gap <= g0 - e). For g0 >= 0 this misses no pass-through either.
 //
 // No advance in tau can miss a hit: the separation along a frozen normal is at most the gap, and bounds on
 // its first and second derivative limit the advance. If a motion grazes the threshold so closely that 200
-// gaps do not bring it past, the last tau is returned as a hit, with a gap still above threshold + e.
-// Cost: 2 to 5 gaps where the circumscribed circles meet, next to none elsewhere.
+// evaluations of the gap do not bring it past, the last tau is returned as a hit, with a gap still above threshold + e.
+// Cost: 2 to 5 evaluations of the gap where the circumscribed circles meet, almost none elsewhere.
 std::optional<Hit> first_hit(const Shape& shape_a, const Pose& a_start, const Pose& a_end,
                              const Shape& shape_b, const Pose& b_start, const Pose& b_end, double threshold);
 
-// The separation <n, p_B - p_A> of two material points along a frozen normal: a substitute for the gap as a
-// constraint on the end of a step whose bodies have passed through each other, for which the gap at the
-// end is positive and this is negative.
+// The separation <n, p_B - p_A> of two material points along a frozen normal. It replaces the gap as the constraint on the
+// end of a step for bodies that have passed through each other: there the gap is positive and this separation negative.
 struct SeparatingPlane {
   Complex normal;                  // laboratory frame, from A to B
   Complex material_a, material_b;  // points in the frames of their bodies

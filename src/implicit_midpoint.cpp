@@ -10,7 +10,7 @@ namespace {
 
 constexpr int most_iterations = 30;
 constexpr double least_gap = 0.5;        // of X, in separations
-constexpr double solver_noise = 3.0;     // in units of the tolerance of GMRES: below it differences of iterates mean nothing
+constexpr double solver_noise = 3.0;     // in tolerances of GMRES; smaller differences of iterates are meaningless
 constexpr double round_off = 1e-14;
 
 std::vector<Pose> halfway(const std::vector<Pose>& u, const std::vector<Pose>& v) {
@@ -24,7 +24,7 @@ std::vector<Pose> halfway(const std::vector<Pose>& u, const std::vector<Pose>& v
 ImplicitMidpoint::ImplicitMidpoint(const StepperOptions& options)
     : gmres_tolerance_(options.accuracy > 0.0 ? options.accuracy : options.stokes.gmres_tolerance) {}
 
-// Linear in the path, so that the flow may turn back.
+// Linear in the path, so that it also holds when the flow is reversed.
 std::vector<RigidVelocity> ImplicitMidpoint::expected_velocity(StepStart& start, double dt) const {
   if (latest_.empty() || !start.continues()) return start.configuration()->contact_free().velocity;
   if (latest_.size() == 1) return latest_[0].velocity;
@@ -42,7 +42,7 @@ Trial ImplicitMidpoint::attempt(StepStart& start, double dt) {
   Trial trial;
   try {
     iterate(start, dt, trial);
-  } catch (const NumericalError& error) {  // in the middle, which a smaller step would bring nearer
+  } catch (const NumericalError& error) {  // at the middle, which is nearer with a smaller step
     trial.failure = error.what();
   }
   return trial;

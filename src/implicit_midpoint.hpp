@@ -1,8 +1,8 @@
-// Implicit midpoint steps with contact, symmetric in time: without contact a flow that is reversed brings the bodies back
-// to where they were, but for the tolerance of the iteration. With X = (x + x') / 2,
+// Implicit midpoint steps with contact, symmetric in time. Without contact a reversed flow brings the bodies back to the
+// start, up to the tolerance of the iteration. With X = (x + x') / 2,
 //   x' from the contact problem with the fluid at X, from x, over dt,
-// iterated from X = x + (dt/2) w, w extrapolated from the middles of the latest two steps. The ends keep the separation;
-// X may come closer, by the sagitta of the bodies' sliding past each other, at most by half.
+// iterated from X = x + (dt/2) w, with w extrapolated from the middles of the latest two steps. The ends keep the
+// separation. At X the gap may be smaller by the sagitta of bodies that slide past each other, down to half the separation.
 #pragma once
 
 #include "integrator.hpp"

@@ -26,7 +26,7 @@ std::vector<RigidVelocity> mean_velocity(const std::vector<Stage>& stages) {
   std::vector<RigidVelocity> mean;
   for (const Stage& stage : stages) {
     const std::vector<RigidVelocity>& w = stage.solution.velocity;
-    if (mean.empty()) mean.resize(w.size(), {{-0.0, -0.0}, -0.0});  // to which anything adds to itself
+    if (mean.empty()) mean.resize(w.size(), {{-0.0, -0.0}, -0.0});  // adding -0 changes no number
     for (std::size_t i = 0; i < w.size(); ++i) {
       mean[i].velocity += stage.weight * w[i].velocity;
       mean[i].omega += stage.weight * w[i].omega;

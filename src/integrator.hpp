@@ -1,8 +1,8 @@
 // Time integrators. Each makes a step from configurations of the fluid and contact problems, which it gets from a
 // StepStart; nothing moves until the step is accepted. An integrator with a memory of earlier steps owns it.
 //
-// To add one: an enumerator and its class in a file of its own, made in make_integrator() (integrator.cpp); a word in
-// case_keys.cpp.
+// To add one, write an enumerator, its class in a file of its own, a line in make_integrator() (integrator.cpp) and a word
+// in case_keys.cpp.
 #pragma once
 
 #include <functional>
@@ -38,18 +38,18 @@ class StepStart {
 
   virtual const Suspension& bodies() const = 0;
   virtual std::shared_ptr<Configuration> configuration() = 0;
-  // The bodies at poses reached `elapsed` time after the start, the walls turned so far. Solves the fluid there;
-  // NumericalError where bodies overlap.
+  // The bodies at poses reached a time `elapsed` after the start, with the walls turned accordingly. Solves for the fluid
+  // there; NumericalError where bodies overlap.
   virtual std::shared_ptr<Configuration> configuration(const std::vector<Pose>& poses, double elapsed) = 0;
-  // Where on the way through configurations the step is after this time.
+  // The path (FluidMemory) that the step has reached after this time.
   virtual double path_after(double elapsed) const = 0;
-  // The step continues the one before: it is driven in the same way, and no bodies jumped in it to restore the separation.
+  // True if the step continues the one before: it is driven in the same way, and that step did not restore the separation.
   virtual bool continues() const = 0;
   // Smallest distance of the bodies at other poses, in separations.
   virtual double relative_gap(const std::vector<Pose>& poses) const = 0;
   // The contact problem of this step (contact_problem.hpp).
   virtual ContactSolution solve(Configuration& at, const std::vector<Pose>& base, double length) = 0;
-  // Velocities that forces between pairs of bodies, along the normals at the configuration, make there.
+  // The velocities caused by forces between pairs of bodies along the normals at the configuration.
   virtual std::vector<RigidVelocity> contact_velocity(Configuration& at, const std::vector<ActiveContact>& contacts) = 0;
 };
 
@@ -57,7 +57,7 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  // A failure to solve a contact problem is told in the trial. NumericalError when GMRES fails at the start.
+  // The trial reports a contact problem that was not solved. NumericalError when GMRES fails at the start.
   virtual Trial attempt(StepStart& start, double dt) = 0;
   // Remembers what the next step uses, if it continues() this one.
   virtual void accept(const Trial&, double /*dt*/) {}

@@ -65,7 +65,7 @@ class Search {
   }
 
  private:
-  // Sorts what is adjacent to the parent of b into what is adjacent to b and what is not.
+  // Divides the boxes adjacent to the parent of b into those that are adjacent to b and those that are not.
   void visit(int b) {
     const Box& box = boxes_[b];
     const Colleagues& around = colleagues_[box.parent];
@@ -138,7 +138,7 @@ class Search {
     }
   }
 
-  // Longer loops over sources cost less: ranges that continue each other become one.
+  // Longer loops over sources cost less, so consecutive ranges are joined.
   void merge_ranges() {
     Rows<PointRange>& near = lists_.near;
     std::vector<PointRange> merged;

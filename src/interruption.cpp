@@ -13,7 +13,7 @@ extern "C" void catch_signal(int signal) {
   if (detail::caught_signal == 0) {
     caught_at = std::time(nullptr);
     detail::caught_signal = signal;
-  } else if (signal != SIGPIPE && std::time(nullptr) > caught_at + 1) {  // each line into a closed pipe is one more
+  } else if (signal != SIGPIPE && std::time(nullptr) > caught_at + 1) {  // SIGPIPE comes again with each line
     std::_Exit(128 + signal);
   }
 }
@@ -25,7 +25,7 @@ SignalGuard::SignalGuard() {
   for (std::size_t k = 0; k < std::size(signals_); ++k) {
     const int signal = signals_[k];
     sigaction(signal, nullptr, &before_[k]);
-    if (before_[k].sa_handler == SIG_IGN) continue;  // as in the background, where Ctrl-C is for others
+    if (before_[k].sa_handler == SIG_IGN) continue;  // as in the background, where Ctrl-C is not for this process
     struct sigaction action {};
     action.sa_handler = signal == SIGXFSZ ? SIG_IGN : catch_signal;
     action.sa_flags = SA_RESTART;

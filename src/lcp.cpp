@@ -15,7 +15,7 @@ namespace {
 
 using Index = Eigen::Index;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Residuals of the scaled problem: a search for a better one ends at the first, rounding at the second.
+// Residuals of the scaled problem: at the first the search for a better result ends, the second is that of rounding.
 constexpr double sufficient = 1e-13;
 constexpr double finished = 1e-15;
 
@@ -76,7 +76,7 @@ ScaledProblem scale_problem(const Matrix& B, const Vector& b) {
   return {inverse.asDiagonal() * B * inverse.asDiagonal(), b.cwiseQuotient(s) / beta, beta * inverse};
 }
 
-// What a method hands back: the best z' it saw, z' = 0 at first.
+// The result of a method: the best z' found, z' = 0 at first.
 struct Attempt {
   explicit Attempt(const ScaledProblem& p)
       : z(Vector::Zero(p.b.size())), residual(natural_residual(z, p.b)) {}
@@ -313,7 +313,7 @@ std::string text(const char* format, Values... values) {
   return buffer;
 }
 
-// Empty, or why no method need be tried.
+// Says why no method need be tried; otherwise empty.
 std::string fault(const Matrix& B, const Vector& b) {
   const Index m = b.size();
   if (B.rows() != m || B.cols() != m)

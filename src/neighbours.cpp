@@ -21,8 +21,8 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-// Boxes of one size class: those with extents up to `size`, a power of two, filed under the cell of that
-// size in which their centre lies. Buckets are chains through `next`, in order of insertion reversed.
+// Boxes of one size class: those with extents up to `size`, a power of two. They are stored under the cell of that
+// size in which their centre lies. Buckets are chains through `next`, in reversed order of insertion.
 struct Level {
   double size;
   std::vector<int> members;
@@ -220,11 +220,11 @@ ClosestPair smallest_gap(const Suspension& suspension) {
     poses.push_back(body.pose);
     if (!is_at_rest(body)) scale = std::max(scale, body.shape.circumradius());
   }
-  // Without a body that moves, or with nothing else, there is no pair, however far one looks.
+  // Without a mobile body, or with nothing else, there is no pair at any distance.
   if (scale == 0.0 || (suspension.size() < 2 && !suspension.container)) return closest;
 
-  // No gap is below that of the circumscribed circles. So the pairs whose circles are within `distance`
-  // hold the smallest gap as soon as one of theirs is at most `distance`.
+  // No gap is below that of the circumscribed circles. The pairs whose circles are within `distance` therefore
+  // include the smallest gap as soon as one of their gaps is at most `distance`.
   double distance = 0.0;
   for (;;) {
     for (const auto& [i, j] : candidates(suspension, poses, distance, is_at_rest)) {

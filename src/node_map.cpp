@@ -81,7 +81,7 @@ double NodeMap::position(double alpha) const { return kernels_.empty() ? alpha :
 
 double NodeMap::apart(std::size_t k, std::size_t l) const { return l == k ? 0.0 : kernels_[k].alpha - kernels_[l].alpha; }
 
-// s less that of cluster k, at the distance t from it in alpha.
+// s minus that of cluster k, at the distance t from it in alpha.
 double NodeMap::from_cluster(std::size_t k, double t) const {
   double s = t;
   for (std::size_t l = 0; l < kernels_.size(); ++l)
@@ -101,9 +101,9 @@ double NodeMap::second_derivative(std::size_t k, double t) const {
   return second / total_;
 }
 
-// The inverse, by Newton's method for sigma in t = w sinh(sigma), of which s is nearly linear around the cluster. Another
-// cluster on the way makes s steep there, so that Newton's steps may leap to and fro: they are kept between bounds that
-// they narrow, and one that does not halve the error is followed by a bisection.
+// The inverse, by Newton's method for sigma in t = w sinh(sigma); around the cluster s is nearly linear in sigma. Another
+// cluster on the way makes s steep there, so that Newton's steps may oscillate. They are therefore kept between bounds
+// that become narrower, and a step that does not halve the error is followed by a bisection.
 double NodeMap::distance_from_cluster(std::size_t k, double s) const {
   const double width = kernels_[k].width, sign = s < 0.0 ? -1.0 : 1.0;
   double low = 0.0, high = std::asinh(2.0 * pi / width), sigma = std::abs(s) / (2.0 * pi) * high;
@@ -113,7 +113,7 @@ double NodeMap::distance_from_cluster(std::size_t k, double s) const {
     const double excess = sign * (s - from_cluster(k, t));
     const double step = excess / (first_derivative(k, t) * width * std::cosh(sigma));
     const double next = sigma + step;
-    if (std::abs(step) <= 1e-9 * (1.0 + sigma)) return sign * width * std::sinh(next);  // what is left is its square
+    if (std::abs(step) <= 1e-9 * (1.0 + sigma)) return sign * width * std::sinh(next);  // the error is its square
     (excess > 0.0 ? low : high) = sigma;
     sigma = next > low && next < high && std::abs(excess) < 0.5 * before ? next : 0.5 * (low + high);
     before = std::abs(excess);

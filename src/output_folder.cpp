@@ -31,7 +31,7 @@ bool same_file(const fs::path& p, const fs::path& q) {
   return fs::equivalent(p, q, ignored);
 }
 
-// A file that was opened may have been removed by the run before, which held its lock.
+// False if the run before, which held the lock, has removed the file that was opened.
 bool is_still_there(int file, const fs::path& path) {
   struct stat opened {}, named {};
   return fstat(file, &opened) == 0 && stat(path.c_str(), &named) == 0 && opened.st_ino == named.st_ino &&
@@ -44,7 +44,7 @@ std::string this_process() {
   return concat("process ", getpid(), " on ", host);
 }
 
-// Lines of a record that say which run it is of, behind the program's.
+// Lines of a record that identify the run; they follow those of the program.
 std::vector<std::string> description_in(const std::string& record) {
   std::vector<std::string> lines;
   for (const std::string_view line : split(trim(record), '\n')) {
@@ -80,12 +80,12 @@ FolderLock::FolderLock(const fs::path& folder) : path_(made_folder(folder) / "lo
     close(file_);
   }
   const std::string text = this_process() + "\n";
-  // Without room for the name the lock still holds.
+  // The lock also holds if there is no room on the disk for the name.
   if (ftruncate(file_, 0) != 0 || ::write(file_, text.data(), text.size()) < 0) return;
 }
 
 FolderLock::~FolderLock() {
-  unlink(path_.c_str());  // before it is unlocked: nobody else removes the next one's
+  unlink(path_.c_str());  // before unlocking, so that the lock file of the next run is not removed
   close(file_);
 }
 

@@ -125,7 +125,7 @@ void read(const std::string& argument, std::vector<std::string>& given, Options&
   }
 }
 
-// What the domain needs, and what does nothing there.
+// The keys that the domain needs, and those that have no effect there.
 void check_domain(Options& options, const std::vector<std::string>& given) {
   Region& region = options.request.region;
   std::vector<std::string> needed;
@@ -167,7 +167,7 @@ std::string table(const Packing& packing, const std::string& made_by) {
   return text;
 }
 
-// What was reached, and the keys of a case that belong to the bodies.
+// The result, and the keys of a case that belong to the bodies.
 void report(const Packing& packing, const Options& options) {
   const Region& region = options.request.region;
   std::printf("%zu bodies, area fraction %s of an area of %s\n", packing.bodies.size(), brief(packing.area_fraction).c_str(),

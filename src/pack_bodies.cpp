@@ -25,7 +25,7 @@ void check(const PackingRequest& r) {
     refuse("polydispersity = ", r.polydispersity, " must be between 0 and .5.");
 }
 
-// How many bodies of each shape: the whole parts of their shares, and one more where most is left.
+// Number of bodies of each shape: the integer parts of the shares, and one more for the largest remainders.
 std::vector<int> counts(const std::vector<ShapeShare>& shapes, int number) {
   double total = 0.0;
   for (const ShapeShare& s : shapes) total += s.share;
@@ -54,7 +54,7 @@ int number_for(const PackingRequest& r) {
   return static_cast<int>(number);
 }
 
-// The bodies placed so far, by squares so large that whatever is near a body is in its own square or those around.
+// The bodies placed so far, in squares so large that all near bodies are in a body's own square or in adjacent ones.
 class Placed {
  public:
   Placed(const Region& region, const Clearance& clearance, double largest_radius) : clearance_(clearance) {
@@ -102,7 +102,7 @@ double smallest_wall_gap(const Region& region, const Body& body) {
   return smallest;
 }
 
-// False once a body has no room; from then on bodies are anywhere.
+// False once a body has no room; all later bodies are then put anywhere.
 bool place(const std::vector<Shape>& shapes, const PackingRequest& r, UniformRandom& random, std::vector<Body>& bodies) {
   Placed placed(r.region, r.clearance, shapes.front().circumradius());
   bool has_room = true;

@@ -1,4 +1,4 @@
-// Random suspensions: bodies of some shapes at random places in a region, with clearances, up to dense ones.
+// Random suspensions, up to dense ones: bodies of given shapes at random places in a region, with clearances.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ struct ShapeShare {
 struct PackingRequest {
   Region region;
   std::vector<ShapeShare> shapes;
-  // Of both at least one. With both, every size is multiplied by the factor that makes the area fraction.
-  int number = 0;              // 0: as many as come nearest to the area fraction
-  double area_fraction = 0.0;  // of the bodies in the region; 0: what the number makes
+  // At least one of these two. With both, every size is multiplied by the factor that gives the area fraction.
+  int number = 0;              // 0: the number that comes nearest to the area fraction
+  double area_fraction = 0.0;  // of the bodies in the region; 0: the one that the number gives
   double polydispersity = 0.0;  // standard deviation of the sizes of a shape over their mean; they are uniformly distributed
   Clearance clearance;          // every gap is larger
   std::uint32_t seed = 1;
@@ -29,19 +29,19 @@ struct PackingRequest {
 struct Packing {
   std::vector<Body> bodies;  // the largest first
   double area_fraction = 0.0;
-  bool relaxed = false;  // overlaps were removed; otherwise each body has a place that is uniform among the free ones
+  bool relaxed = false;  // overlaps were removed; otherwise each body has a uniformly random place among the free ones
   ClosestPair closest;       // of two bodies
   double wall_gap = 0.0;     // the smallest
 };
 
-// Shapes of the bodies that a request is for, the largest first. InputError for one that is not possible: neither number nor
+// Shapes of the requested bodies, the largest first. InputError for an impossible request: neither number nor
 // area fraction, more than a million bodies, an area fraction of 1 or more, a polydispersity outside [0, .5].
 std::vector<Shape> requested_shapes(const PackingRequest& request, UniformRandom& random);
 
-// Bodies are placed one after the other, the largest first, at the first of 1000 random places and angles where their gaps
-// exceed the clearances; each try draws three numbers. If there is none for some body, it and all later ones are put
+// Places the bodies one after the other, the largest first, at the first of 1000 random places and angles where their gaps
+// exceed the clearances; each try draws three numbers. If no try succeeds for some body, it and all later ones are put
 // anywhere, and overlaps are removed (relaxation.hpp). All gaps are computed again at the end. The result depends
-// on nothing but the request. InputError as above; NumericalError where overlaps remain.
+// only on the request. InputError as above; NumericalError if overlaps remain.
 Packing pack_bodies(const PackingRequest& request);
 
 }  // namespace stokes

@@ -10,7 +10,7 @@ namespace stokes {
 
 namespace {
 
-// Braces draw in the order in which they are written.
+// Initialisers in braces are evaluated in order, and with them the draws.
 Body random_body(UniformRandom& random, const RandomPlacement& placement) {
   const double u[3] = {random(), random(), random()};
   const double distance = placement.nearest + (placement.farthest - placement.nearest) * u[0];

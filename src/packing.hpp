@@ -1,6 +1,6 @@
-// Bodies at random places between two concentric walls, by the rule that made the paper's starts.
+// Bodies at random places between two concentric walls, by the rule that made the paper's initial configurations.
 //
-// Each try draws three numbers u1, u2, u3, uniform in [0, 1), for one body: its centre is at the distance
+// Each try for one body draws three numbers u1, u2, u3, uniform in [0, 1): its centre is at the distance
 // nearest + (farthest - nearest) u1 from the axis and at the polar angle 2 pi u2, its own angle is 2 pi u3 (drawn for
 // discs, too). The try is rejected when the body is too close to a wall or to a body placed before.
 #pragma once

@@ -8,7 +8,7 @@
 //   stresslet  u = (r.n)(r.eta) r/rho^4,               p = 2 (r.n)(r.eta)/rho^4 - n.eta/rho^2
 //   Stokeslet  u = -log(rho) F + (r.F) r/rho^2,        p = 2 F.r/rho^2
 //   rotlet     u = L perp(r)/rho^2,                    p = 0
-// Distances must lie between 1e-37 and 1e37: products of their powers are formed.
+// Distances must lie between 1e-37 and 1e37, because products of their powers are formed.
 #pragma once
 
 #include "simd.hpp"
@@ -38,7 +38,7 @@ struct GradientPack {
 
 namespace detail {
 
-// v with one in the place of zeros, whose numerators vanish.
+// v with zeros replaced by one; the numerators vanish there.
 template <Coincident coincident>
 inline Pack nonzero(Pack v) {
   if constexpr (coincident == Coincident::absent) {

@@ -12,10 +12,10 @@ namespace stokes {
 
 namespace {
 
-// Of a circle so many times larger a body sees a part.
+// From this ratio of sizes on only a part of a circle interacts with a body.
 constexpr double large_circle = 4.0;
 
-// Within a body's length of its circumscribed circle.
+// Nodes within a body's length of its circumscribed circle.
 std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) {
   const double reach = 3.0 * body.shape->shape.circumradius();
   std::vector<int> nodes;
@@ -24,10 +24,9 @@ std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) 
   return nodes;
 }
 
-// What passes between two boundaries, C = P Q^T but for singular values below `negligible`, of flow
-// beside the density that makes it. Q, or P where C has more columns
-// than rows, has the singular vectors, at least one, be it zero: from C^T C = L L^T by a Cholesky factorisation that
-// pivots and ends early.
+// The interaction of two boundaries, C = P Q^T up to singular values (flow over the density that makes it) below
+// `negligible`. Q (or P, where C has more columns than rows) has the singular vectors: at least one, even if it is zero.
+// They come from C^T C = L L^T by a Cholesky factorisation with pivoting that ends early.
 struct Coupling {
   Eigen::MatrixXf P, Q;
 };
@@ -58,8 +57,9 @@ Coupling coupling(const Matrix& C, double negligible) {
   return {C.cast<float>() * Q, std::move(Q)};
 }
 
-// Connected by relative gaps below `tight`, the closest first as far as the limits allow: of a group, 6000 unknowns, and of
-// the factors of all groups, 2 GB. Pairs that the limits leave between groups make one of their own. Members increase.
+// Groups connected by relative gaps below `tight`, the closest first, within two limits: 6000 unknowns for a group and 2 GB
+// for the factors of all groups. Pairs between groups that the limits separate become groups of their own. Members
+// increase.
 std::vector<std::vector<int>> joined(std::vector<ClosePair> pairs, const std::vector<PlacedShape>& boundaries) {
   constexpr double tight = 1e-3;
   constexpr std::size_t most_members = 8;
@@ -177,7 +177,7 @@ Preconditioner::Group Preconditioner::factorised(std::vector<int> members, const
   return g;
 }
 
-// What solving a group together adds to the solutions `own` of its members by themselves; empty outside the set.
+// The correction to the solutions `own` of single members when a group is solved together; empty outside the set.
 Vector Preconditioner::change(const Group& g, const BoundarySet& set, const Vector& own) const {
   if (!std::all_of(g.members.begin(), g.members.end(), [&set](int i) { return set.has(i); })) return {};
   Vector alone(g.first.back());
@@ -228,7 +228,7 @@ void Preconditioner::apply(const BoundarySet& set, const Vector& in, Vector& out
   });
 }
 
-// What solving a pair together adds to the solutions `own` of its members by themselves; of j at its nodes that take part.
+// The correction to the solutions `own` of single members when a pair is solved; for j at the nodes that take part.
 Preconditioner::Change Preconditioner::change(const Pair& p, const BoundarySet& set, const Vector& own) const {
   const Eigen::VectorXf d_i = own.segment(2 * set.first[p.i], 2 * boundaries_[p.i].size()).cast<float>();
   Eigen::VectorXf d_j(2 * static_cast<Eigen::Index>(p.part.size()));

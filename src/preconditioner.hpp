@@ -13,8 +13,8 @@ namespace stokes {
 enum class PreconditionerKind {
   none,
   block,  // D^-1: each boundary's own block, by the inverse that its shape carries
-  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1), with 2 x 2 block systems solved approximately. For the
-          // smallest gaps the same with groups of boundaries, solved exactly
+  pair,   // D^-1 + Sum over close pairs (A_ij^-1 - D_i^-1 - D_j^-1), with 2 x 2 block systems solved approximately. Pairs
+          // with the smallest gaps form groups of boundaries, which are solved exactly
 };
 
 // Two close boundaries and the gap between them, divided by its radius of curvature (facing.hpp).
@@ -29,16 +29,16 @@ class Preconditioner {
   using BlockFunction =
       std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
-  // `pairs`: the close pairs, for PreconditionerKind::pair. Of what passes between the two, singular values below
-  // `negligible` are left out. Pairs below a relative gap of 1e-3 are joined to groups, the closest first, of up to 8
-  // boundaries and 6000 unknowns, 2 GB for all, each with a dense factorisation. Of a large circle only the nodes beside
-  // the other member take part. Cost per pair O(N_i^2 N_j + r N_j^2), where N_i is the smaller number of nodes and r the
+  // `pairs`: the close pairs, for PreconditionerKind::pair. Singular values of their interaction below `negligible` are
+  // left out. Pairs below a relative gap of 1e-3 are joined to groups, the closest first, of up to 8 boundaries and 6000
+  // unknowns, 2 GB for all groups, each with a dense factorisation. Only those nodes of a large circle take part that are
+  // beside the other member. Cost per pair O(N_i^2 N_j + r N_j^2), where N_i is the smaller number of nodes and r the
   // rank of the interaction. There is no second term if j is a circle.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<ClosePair>& pairs, double negligible, const BlockFunction& block);
 
-  // out = M in, for densities of a set of boundaries in body frames. Pairs and groups count if all their members are in
-  // the set. The result does not depend on the number of threads.
+  // out = M in, for densities of a set of boundaries in body frames. Pairs and groups with a member outside the set are
+  // left out. The result does not depend on the number of threads.
   void apply(const BoundarySet& set, const Vector& in, Vector& out) const;
 
  private:

@@ -98,8 +98,8 @@ Quadtree::Quadtree(const PointArray& sources, const PointArray* targets, int lea
   }
 }
 
-// Translations take the distances of centres for multiples of the box size. So that this holds to the last
-// bit, however far from the origin the points are, all centres are whole multiples of `unit`, the
+// Translations assume that distances of centres are multiples of the box size. For this to hold to the last
+// bit, however far from the origin the points are, all centres are integer multiples of `unit`, the
 // resolution of the largest coordinate, and the size is unit times a power of two times 8 to 16.
 void Quadtree::add_root() {
   Box root{};

@@ -1,8 +1,8 @@
 // Adaptive quadtree over source and target points.
 //
-// Boxes are squares; a box with more than `leaf_size` sources or targets is split into its quadrants, of
-// which only those that hold points become boxes. Boxes are stored level by level, children of one box
-// side by side, and the points of every box are consecutive in the sorted order.
+// Boxes are squares. A box with more than `leaf_size` sources or targets is split into its quadrants; quadrants without
+// points are left out. Boxes are stored level by level, the children of one box side by side, and the points of every box
+// are consecutive in the sorted order.
 #pragma once
 
 #include <cstdint>
@@ -43,8 +43,8 @@ struct SortedPoints {
 class Quadtree {
  public:
   // `targets` absent: they are the sources. Cost O(points x depth), threaded; the tree does not depend on
-  // the number of threads. Centres and box sizes are exact. That limits the depth: a box smaller than 1e-14
-  // of the largest coordinate, or than 2^-48 of the root, is a leaf whatever it holds. Raises InputError
+  // the number of threads. Centres and box sizes are exact, which limits the depth: a box smaller than 1e-14
+  // of the largest coordinate, or than 2^-48 of the root, is a leaf whatever it contains. Raises InputError
   // for arrays of different length and for coordinates that are not finite or beyond 1e37.
   Quadtree(const PointArray& sources, const PointArray* targets, int leaf_size);
 

@@ -46,9 +46,9 @@ constexpr Column steps_table[] = {
     {"largest_multiplier", "of the contacts"},
     {"estimated_error", "of the velocities, in units of the rate and size of what drives them, with an accuracy"},
     {"nodes", "of all boundaries"},
-    {"clusters", "places of boundaries that nodes are drawn to"},
+    {"clusters", "points of boundaries around which nodes are concentrated"},
     {"most_nodes", "of one boundary"},
-    {"unresolved", "boundaries that do not keep the accuracy; of fixed nodes, pairs and bodies that they do not resolve"},
+    {"unresolved", "boundaries that miss the accuracy; with fixed nodes, pairs and bodies that these do not resolve"},
     {"local_error", "estimated error of the step with a tolerance: of positions in largest semi-axes, of angles in radians"},
     {"rejected_by_error", "attempts at the step whose error was above the tolerance"},
     {"rejected_by_failure", "attempts at the step that failed"},
@@ -105,7 +105,7 @@ std::string help_of(std::span<const Column> columns) {
   return text;
 }
 
-// Why a table that begins with these columns cannot be cut to so many bytes and continued, or nothing.
+// Says why a table with these columns cannot be cut to so many bytes and continued; empty if it can.
 std::string why_not_continued(const std::filesystem::path& file, const std::vector<std::string>& columns,
                               std::uintmax_t bytes) {
   std::error_code error;
@@ -255,7 +255,7 @@ void Recorder::append_geometry(const StepRecord& record, Row& row) const {
   }
 }
 
-// Of a step that is left out the rows wait until it is known whether it is the last.
+// The rows of a step that is not written are kept until it is known whether it is the last.
 void Recorder::write_bodies(const StepRecord& record) {
   const StepOutcome* outcome = record.outcome;
   std::vector<Row> rows;

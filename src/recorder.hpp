@@ -20,16 +20,15 @@ std::string why_not_writable(const std::filesystem::path& folder);
 const std::filesystem::path& made_folder(const std::filesystem::path& folder);
 
 // trajectory.csv  step,time,body,x,y,theta,ux,uy,omega,fx,fy,torque,stresslet_11,stresslet_12
-//   The configuration at the start of a step, the velocities and the contact forces and torques that moved
-//   it, the stresslets; every `output_every`-th step, the first and the last; the final configuration is one more step
-//   whose other fields are empty. Walls are no bodies of it.
+//   The configuration at the start of a step, the velocities, contact forces and torques of that step, and the stresslets.
+//   Steps written: every `output_every`-th, the first and the last. The final configuration is one more step whose other
+//   fields are empty. Walls have no rows.
 // steps.csv  step,time,dt,gmres_iterations,ncp_iterations,contacts,min_gap,density_tail,stokes_solves,
 //            smallest_multiplier,largest_multiplier,estimated_error,nodes,clusters,most_nodes,unresolved
-//   A row for every step and one for the final configuration. The estimated error is that of the velocities with an
-//   accuracy (resolution.hpp), which `unresolved` boundaries do not keep; nodes and clusters are those of all boundaries,
-//   most_nodes those of one. The multipliers are those of the step's contacts, empty
-//   without any: forces, or, with interference volumes, factors of the volumes' gradients. There are more columns
-//   (rheology.hpp):
+//   A row for every step and one for the final configuration. With an accuracy the estimated error is that of the
+//   velocities (resolution.hpp), and `unresolved` boundaries miss the accuracy. nodes and clusters are those of all
+//   boundaries, most_nodes those of one. The multipliers are those of the step's contacts, empty without contacts: forces
+//   or, with interference volumes, factors of the volumes' gradients. There are more columns (rheology.hpp):
 //   * in unbounded fluid: stresslet_sum_11, stresslet_sum_12, contact_sum_11, contact_sum_12 and, with the area of a sample,
 //     bulk_stress_11, bulk_stress_12, effective_viscosity;
 //   * in a disc: outer_torque, of the container on the fluid about its centre;
@@ -59,8 +58,8 @@ class Recorder {
 
   const Position& position() const { return position_; }
 
-  // Other processes see the rows when this returns. NumericalError on a write error. Both files and position() are then
-  // those of the previous record, and nothing more can be recorded.
+  // Other processes see the rows when this returns. On a write error it throws NumericalError. Both files and position()
+  // are then those of the previous record, and nothing more can be recorded.
   void record(const StepRecord& record);
 
   // Returns when all rows are on disk. NumericalError on a write error.

@@ -8,7 +8,7 @@ namespace stokes {
 
 namespace {
 
-// Of the mobility across a gap.
+// Relative to the mobility across a gap.
 constexpr double largest_mobility_error = 0.1;
 
 // The error of the mobility of an ellipse with N nodes at equal steps, as measured at a wall along a flank.
@@ -16,7 +16,7 @@ double mobility_error(const Shape& shape, int points) {
   return 0.15 * std::exp(-points * std::atanh(shape.inradius() / shape.circumradius()));
 }
 
-// Of a body with nodes of its own, those stay.
+// True for a body with its own number of nodes, which is not changed.
 bool has_own_nodes(const Body& body) { return body.points > 0; }
 
 // W in the boundary's parameter.
@@ -32,7 +32,7 @@ void add_cluster(const Shape& shape, const Front& front, double factor, double t
   nodes.clusters.push_back({front.alpha, w, 2 * static_cast<int>(std::ceil(0.5 * count))});
 }
 
-// Of clusters closer than the narrower is wide that one is kept.
+// If two clusters are closer than the width of the narrower one, only the narrower one is kept.
 void merge(std::vector<NodeCluster>& clusters) {
   std::stable_sort(clusters.begin(), clusters.end(),
                    [](const NodeCluster& a, const NodeCluster& b) { return a.width < b.width; });
@@ -47,7 +47,7 @@ void merge(std::vector<NodeCluster>& clusters) {
   clusters = std::move(kept);
 }
 
-// With the N_0 asked for or, where clusters would be more than that, twice, four times, ... as many.
+// N_0 is the requested number or, where its clusters would have more nodes than that, 2, 4, ... times this number.
 Discretisation fewest_nodes(const Shape& shape, const std::vector<Front>& close, const Resolution& resolution,
                             double tolerance, double least_of_clusters) {
   Discretisation fewest;

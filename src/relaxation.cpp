@@ -85,7 +85,7 @@ class Relaxation {
       }
   }
 
-  // By which a gap is below the wanted one; the worst is remembered.
+  // The amount by which a gap is below the wanted one; the largest is stored.
   double found(double clearance, double value) {
     shortfall_ = std::max(shortfall_, clearance - value);
     return clearance + margin_ - value;

@@ -15,9 +15,9 @@ struct Clearance {
   double bodies = 0.0, walls = 0.0;  // length
 };
 
-// Moves the bodies until each gap exceeds its clearance: true. Where that takes more than 20000 steps it tries again, four
-// times at most, after random displacements of up to a tenth of the smallest semi-axis; then it gives up: false.
-// The result depends on nothing but the arguments. Cost: a few thousand evaluations of the gaps of neighbours.
+// Moves the bodies until each gap exceeds its clearance and returns true. If that takes more than 20000 steps, it tries
+// again, four times at most, after random displacements of up to a tenth of the smallest semi-axis, and then returns false.
+// The result depends only on the arguments. Cost: a few thousand evaluations of the gaps of neighbours.
 bool relax(std::vector<Body>& bodies, const Region& region, const Clearance& clearance, UniformRandom& random);
 
 }  // namespace stokes

@@ -13,18 +13,18 @@ namespace {
 // 24, 32, 48, 64, ...
 int next_points(int points) { return (points & (points - 1)) == 0 ? points / 2 * 3 : points / 3 * 4; }
 
-// Velocities answer to errors of the data e at a relative gap G with e / root(G) (a flux into the gap squeezes it).
+// An error e of the data changes velocities at a relative gap G by e / root(G) (a flux into the gap squeezes it).
 double root(double relative_gap) { return std::min(1.0, std::sqrt(0.5 * relative_gap)); }
 // Densities grow like 1 / root(G), and with them the round-off of the equations.
 double round_off(double relative_gap) { return 4e-15 / root(relative_gap); }
 
-// A density's tail shows what the flow excites, not what a force on the body would, and the error is the product of the
-// two. Nodes are therefore chosen with a margin, which tails correct only upwards. Of 2000 random drops of 2 to 6
-// ellipses with an accuracy of 1e-6 these numbers leave 2 with a larger error, at most 1.7e-6 of the size of its body; 1.5, 1
-// and 100 leave one in six, without a sign.
+// A density's tail shows what the flow excites, not what a force on the body would excite, and the error is the product of
+// the two. Nodes are therefore chosen with a margin, which tails can only increase. In 2000 random drops of 2 to 6
+// ellipses with an accuracy of 1e-6 these numbers leave 2 larger errors, at most 1.7e-6 of the size of their body. With
+// 1.5, 1 and 100 one drop in six has a larger error, and nothing indicates it.
 constexpr double first_factor = 2.5;        // of the digits
 constexpr double least_of_clusters = 5e-8;  // 18 digits with the margin, more than densities have
-constexpr double points_tolerance = 1e-3;   // of N_0: in a flow less smooth than shear, parts of the accuracy
+constexpr double points_tolerance = 1e-3;   // of N_0, over the accuracy, for flows less smooth than shear
 constexpr double tail_factor = 1000.0;
 
 }  // namespace
@@ -112,7 +112,7 @@ Choice choice(const Suspension& bodies, const std::vector<Shape>& shapes, const 
   return {std::move(nodes), std::move(relative_gap), std::max({wanted, round_off(least), 1e-12})};
 }
 
-// Half as many again. False where there are as many as may be: a tail that stays is round-off, also in the next step.
+// Adds half as many nodes again. False at the largest number: a tail that stays is round-off, also in the next step.
 bool add_nodes(Resolution& r) {
   constexpr double most_factor = 8.0;
   if (r.points >= most_points && r.factor >= most_factor) return false;

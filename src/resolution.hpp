@@ -1,12 +1,12 @@
-// Nodes, close evaluation and solver from an accuracy of the bodies' velocities, in units of the rate of what drives them
-// and of the size of the smallest body; and a solution that has been held against it.
+// Chooses nodes, close evaluation and solver tolerance for an accuracy of the bodies' velocities, in units of the rate of
+// what drives them and of the size of the smallest body, and checks the solution against this accuracy.
 //
 // Each boundary begins with the nodes that it needs by itself and clusters at its contacts (refinement.hpp). The equations
-// are solved; where the density of a boundary still has modes at the end of its spectrum,
-//   tail = max_{|k| > 0.4 N} |eta_k| / max_{k > 0} |eta_k|,   1000 tail^2 (size / smallest size) > accuracy
-// (velocities, smooth functionals of densities, are off by 1 to 150 tail^2 of their size in pairs, by up to 1e4 tail^2 in
-// random drops), the boundary gets half as many nodes again and the solution starts from the density moved to them, at most
-// three times.
+// are solved. A boundary whose density still has modes at the end of its spectrum,
+//   tail = max_{|k| > 0.4 N} |eta_k| / max_{k != 0} |eta_k|,   1000 tail^2 (size / smallest size) > accuracy,
+// then gets half as many nodes again, and the next solve starts from the density moved to them. This is repeated at most
+// three times. Velocities are smooth functionals of densities: their errors are 1 to 150 tail^2 of their size in pairs, and
+// up to 1e4 tail^2 in random drops.
 #pragma once
 
 #include <functional>
@@ -21,13 +21,13 @@ namespace stokes {
 
 inline constexpr int most_points = 1024;  // of a boundary
 
-// What a body alone asks for, found once for each form.
+// The nodes that a body needs by itself, found once for each shape.
 class ShapeResolution {
  public:
   // The first N of 24, 32, 48, 64, ... 1024 that gives the angular velocity and the stresslet of the body in shear at two
   // angles, in units of its size, as the next one does, to the tolerance.
   int points(const Shape& shape, double tolerance);
-  // By how much N points miss them.
+  // The largest change of these quantities from N points to the next N.
   double error(const Shape& shape, int points);
 
  private:
@@ -40,8 +40,8 @@ class ShapeResolution {
   std::map<std::pair<double, int>, Alone> known_;
 };
 
-// Smallest factor with which the close evaluation of a boundary at these nodes keeps a tolerance: the product of the
-// density with conj(zeta')/zeta', whose modes beyond (factor - 1) N/2 are below it. At most 8.
+// The smallest upsampling with which the close evaluation of a boundary at these nodes keeps a tolerance. It resolves the
+// product of the density with conj(zeta')/zeta', whose modes beyond (factor - 1) N/2 are below the tolerance. At most 8.
 int close_upsampling(const Shape& shape, const Discretisation& nodes, double tolerance);
 
 struct ResolvedSystem {
@@ -56,7 +56,7 @@ struct ResolvedSystem {
   int most_nodes() const;
 };
 
-// What is to be solved; `guess`, if any, gives a density on nodes to start from.
+// The problem to be solved. `guess`, if any, gives an initial density on the chosen nodes.
 struct ResolvedProblem {
   const Suspension& bodies;
   BackgroundFlow flow;
@@ -64,10 +64,11 @@ struct ResolvedProblem {
   std::function<ComplexVector(const std::vector<Discretisation>&)> guess;
 };
 
-// With options.gmres_tolerance replaced by A sqrt(G/2), A being the accuracy over the largest relative size, G = g kappa the
-// smallest relative gap, at most A and at least 1e-12 and the round-off 4e-15/sqrt(G/2) of the equations. That is 8e-15/G
-// in the velocities, the least estimated error. `resolution`: of the boundaries, what an earlier solution ended with;
-// empty: from their shapes. It is changed to what was needed. The result does not depend on the number of threads.
+// Solves with options.gmres_tolerance replaced by A sqrt(G/2) or, if that is smaller, rate_tolerance(G). Here A is the
+// accuracy over the largest relative size, and G = g kappa the smallest relative gap. The tolerance is at least 1e-12 and
+// the round-off 4e-15/sqrt(G/2) of the equations. This round-off is 8e-15/G in the velocities, the least estimated error.
+// `resolution` has what each boundary needed in an earlier solve; empty: chosen by the shapes. It is changed to what was
+// needed. The result does not depend on the number of threads.
 ResolvedSystem solve_to_accuracy(const ResolvedProblem& problem, double accuracy, StokesOptions options, ShapeCache& shapes,
                                  ShapeResolution& alone, std::vector<Resolution>& resolution);
 

@@ -27,10 +27,10 @@ CouetteFlow couette_flow(const Suspension& bodies);
 // circles around the walls' centre, -1 when all are radial, 0 for random directions. NaN without free bodies.
 double order_parameter(const Suspension& bodies);
 
-// Torque of the inner cylinder with the bodies over that without: the effective viscosity in units of the fluid's.
+// Effective viscosity over the fluid's: the torque of the inner cylinder with the bodies over that without bodies.
 // NaN if the cylinders rotate together.
 double effective_viscosity(const Suspension& bodies, const StepOutcome& outcome);
-// The same from the outer cylinder. Its torque is opposite to the inner one's if the bodies bear no torque.
+// The same from the outer cylinder, whose torque is opposite to the inner one's if the bodies bear no torque.
 double effective_viscosity_outer(const Suspension& bodies, const StepOutcome& outcome);
 
 // The bodies' contribution to the mean stress in the annulus, per area between the walls.
@@ -46,8 +46,8 @@ struct ParticleStress {
 };
 ParticleStress particle_stress(const Suspension& bodies, const StepOutcome& outcome);
 
-// In unbounded fluid the same as sums, not per area, in the laboratory frame: the parts without trace as T_11 + i T_12.
-// Forces that the case gives are not in it.
+// The same in unbounded fluid, as sums, not per area, in the laboratory frame: the parts without trace as T_11 + i T_12.
+// External forces are not included.
 struct StressSum {
   Complex stresslets;  // of the bodies about their centres
   Complex contacts;    // sym(F (x) d) as above
@@ -56,7 +56,7 @@ struct StressSum {
 };
 StressSum stress_sum(const Suspension& bodies, const StepOutcome& outcome);
 
-// Part of the unbounded fluid that the bodies stand for. Its stress without trace is
+// The part of the unbounded fluid that the bodies represent. Its stress without trace is
 //   Sigma = 2 E + (sum of stresslets and contacts) / area,  E the background's rate of strain,
 // and its viscosity Sigma:E / 2 E:E, NaN where E = 0. That is 1 + 2 phi for discs far apart, the area fraction being phi.
 struct Sample {

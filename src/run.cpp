@@ -37,7 +37,7 @@ StepsColumns columns_of(const Suspension& bodies) {
 
 Sample sample_of(const Case& c) { return {c.sample_area.value_or(0.0), strain_rate(c.background().flow(0.0))}; }
 
-// The fastest strain or rotation of the flow without bodies, at the first places of the bodies.
+// The largest rate of strain or rotation of the flow without bodies, at the initial positions of the bodies.
 double largest_rate(const Case& c, const Suspension& bodies) {
   if (!bodies.container) {
     double height = 0.0;  // in Poiseuille flow the rate grows with it
@@ -54,7 +54,7 @@ double largest_rate(const Case& c, const Suspension& bodies) {
   return std::abs(flow.shear_rate(flow.inner_radius));
 }
 
-// Values that are possible, but hardly meant.
+// Warns of values that are possible but probably not intended.
 void warn_of_values(const Case& c, const Suspension& bodies, Progress& progress) {
   for (const std::string& warning : c.warnings) progress.message(concat("warning: ", warning));
   constexpr double large_step = 0.5;
@@ -101,7 +101,7 @@ class Checkpoints {
   void observe(const RunState& state, RunStage stage) {
     latest_ = &state;
     latest_stage_ = stage;
-    // The rows of a step that was given up while its fields were written are no part of the state before it.
+    // The rows of a step that was abandoned while its fields were written do not belong to the state before it.
     if (stage != RunStage::interrupted) position_ = recorder_.position();
     if (stage == RunStage::under_way) {
       const bool due = interval_ > 0.0 && std::chrono::duration<double>(Clock::now() - last_).count() >= interval_;
@@ -116,8 +116,8 @@ class Checkpoints {
 
   const std::string& interruption() const { return interruption_; }
 
-  // Where a run that could not write its results goes on, as the end of a message: from the latest state, if there is
-  // room for its checkpoint, otherwise from the checkpoint before.
+  // Says, as the end of a message, from where a run that could not write its results continues: from the latest state, if
+  // there is room for its checkpoint, otherwise from the checkpoint before.
   std::string save_after_write_error() {
     if (latest_) write();
     return concat("The results are complete up to here; ", way_on(), ".");
@@ -155,18 +155,18 @@ class Checkpoints {
   std::string why_not_written_, interruption_;
 };
 
-// The checkpoint that a run goes on from, or none for one that begins anew, with warnings.
+// The checkpoint from which a run continues, or none for a run that begins anew, with warnings.
 struct Beginning {
   std::optional<Checkpoint> checkpoint;
   std::vector<std::string> warnings;
 };
 
-// Prepares the folder for either: results that are there stay or go, and the run is recorded.
+// Prepares the folder for either: keeps or removes the results in it, and records the run.
 Beginning beginning(const Case& c, const Suspension& bodies, const CheckpointFile& file, StepsColumns columns) {
   const RunRecord record(c, bodies);
   Beginning result{file.read(), {}};
   std::optional<Checkpoint>& start = result.checkpoint;
-  if (!std::filesystem::exists(file.path())) record.check_overwriting();  // what failed may be replaced, too
+  if (!std::filesystem::exists(file.path())) record.check_overwriting();  // results of a failed run may be replaced, too
   if (start && start->build != build_description())
     result.warnings.push_back(concat("the checkpoint is of another build of the program (", start->build, "; this is ",
                                      build_description(), "): from here on the last digits may be others"));
@@ -220,7 +220,7 @@ class ResolutionWarnings {
   std::optional<Shortfall> worst_;
 };
 
-// Part of the separation. With 1e-4 of it the error of contacts is what limits higher orders than the first.
+// As a fraction of the separation. With 1e-4 the error of contacts would limit the accuracy of orders above the first.
 double contact_tolerance_for(const Case& c, const Suspension& bodies, double separation) {
   if (c.integrator == IntegratorKind::euler) return contact_tolerance;
   constexpr double of_higher_order = 1e-6, of_tolerance = 0.1, least_length = 1e-11;  // the last in semi-axes

@@ -14,7 +14,7 @@ Trial RungeKutta::attempt(StepStart& start, double dt) {
   try {
     make_stages(start, dt, trial);
     if (trial.failure.empty() && estimates_) estimate(start, dt, trial);
-  } catch (const NumericalError& error) {  // of a stage that a smaller step would bring nearer
+  } catch (const NumericalError& error) {  // at a stage, which is nearer with a smaller step
     if (tableau_.a.size() == 1) throw;
     trial.failure = error.what();
   }

@@ -1,7 +1,7 @@
 // Explicit Runge-Kutta steps with contact at every stage. With weights a_ij and b_j, b being the row a_{s+1},
 //   X_1 = x,   base_i = x + dt Sum_{j<i} a_{i+1,j} w_j,
 //   (X_{i+1}, w_i) from the contact problem with the fluid at X_i, from base_i, over a_{i+1,i} dt;   x' = X_{s+1}.
-// The multipliers of every stage are not negative and gap >= separation holds at every stage, which takes a_{i+1,i} > 0.
+// Multipliers >= 0 and gap >= separation hold at every stage, which requires a_{i+1,i} > 0.
 #pragma once
 
 #include "integrator.hpp"
@@ -18,9 +18,9 @@ Tableau rk3_tableau();
 
 class RungeKutta : public Integrator {
  public:
-  // With an estimate, the error is the distance (error_norm) from the explicit midpoint step, which has a contact problem
-  // of its own with the fluid at the second stage, over the whole step. Both ends keep the separation, so that the
-  // velocity's jump at the onset of a contact is in both and cancels.
+  // With an estimate, the error is the distance (error_norm) from the explicit midpoint step. That step has a contact
+  // problem of its own with the fluid at the second stage, over the whole step. Both ends keep the separation, so that the
+  // jump of the velocity at the onset of a contact is in both and cancels.
   explicit RungeKutta(Tableau tableau, bool estimates = false) : tableau_(std::move(tableau)), estimates_(estimates) {}
   Trial attempt(StepStart& start, double dt) override;
 

@@ -19,7 +19,7 @@ double smallest_axis(const Suspension& bodies) {
   return axis;
 }
 
-// A velocity that something makes, and its change over a length.
+// A velocity, and its change over a length.
 std::string judged(const std::string& what, double speed, double length) {
   for (const double x : {std::abs(speed), std::abs(speed) / length}) {
     if (x == 0.0 || (x >= smallest && x <= largest)) continue;

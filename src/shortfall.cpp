@@ -11,7 +11,7 @@ namespace stokes {
 
 namespace {
 
-constexpr double least_error = 1e-6;  // of velocities, that matters to a pair
+constexpr double least_error = 1e-6;  // of velocities; smaller errors do not matter to a pair
 constexpr double largest_of_pair = 0.1, largest_alone = 1e-3;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What fixed nodes do not resolve, from the geometry, before anything is solved.
+// Estimates from the geometry, before anything is solved, what fixed nodes do not resolve.
 #pragma once
 
 #include <string>
@@ -9,16 +9,16 @@
 namespace stokes {
 
 struct Shortfall {
-  int a, b;      // a body and another, container_index, or, of a body alone, itself
+  int a, b;      // a body and another or container_index; for a body alone both are this body
   double gap;    // of a pair
-  double error;  // estimated: of a pair relative to the rate of its gap; of a body alone of its velocities in units of rate and size
+  double error;  // estimated; of a pair: of the rate of its gap, relative; of a body: of its velocities, over rate and size
 };
 
-// Pairs whose estimated error is above 0.1 and bodies whose is above 1e-3, the largest first. Velocities that nodes resolve
-// by a number of digits (refinement.hpp) have errors exp(-digits), and the rate of a gap, which under a force is the
-// gap_mobility, has the relative error exp(-digits) / gap_mobility. Where that is 1 and more nothing of the rate is resolved.
-// Of two discs at equal steps it is 1.5 to 3 times the error for 32 to 128 nodes where that passes 0.1. Of a body alone
-// the error is that of ShapeResolution.
+// Pairs with an estimated error above 0.1 and bodies with one above 1e-3, the largest first. Velocities that nodes resolve
+// by a number of digits (refinement.hpp) have errors exp(-digits). The rate of a gap under a force is the gap_mobility, so
+// its relative error is exp(-digits) / gap_mobility. If this is 1 or more, nothing of the rate is resolved. For two discs
+// with 32 to 128 nodes at equal steps it is 1.5 to 3 times the actual error where it passes 0.1. The error of a body alone
+// is that of ShapeResolution.
 std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Discretisation>& nodes,
                                   ShapeResolution& alone);
 

@@ -1,7 +1,7 @@
 // simulate CASE.txt [key=value ...]: runs a suspension described by a case file (case.hpp).
 // Exit status: 0 done; 2 bad input, nothing written; 3 numerical failure, everything up to it written; 128 + N ended by
 // signal N (129 SIGHUP, 130 SIGINT, 141 SIGPIPE, 143 SIGTERM). An unfinished run leaves a checkpoint, from which the
-// same command goes on.
+// same command continues.
 
 #include <cstdio>
 #include <new>

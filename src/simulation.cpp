@@ -25,7 +25,7 @@ NcpOptions ncp_options(const SimulationOptions& options) {
   return ncp;
 }
 
-// Finds the smallest gap; why a run cannot go on from there, or nothing.
+// Finds the smallest gap and says why a run cannot continue from there; empty if it can.
 std::string obstacle(const Suspension& bodies, ContactModel contact, ClosestPair& closest) {
   try {
     closest = smallest_gap(bodies);
@@ -66,7 +66,7 @@ class Run : public RunState {
 
   RunSummary to_its_end() {
     std::string failure = obstacle(stepper_.bodies(), options_.stepper.contact, closest_);
-    // Bodies that overlap from the beginning may still be parted by the first step.
+    // The first step may still part bodies that overlap from the beginning.
     if (!failure.empty() && (options_.start || !(closest_.gap < 0.0))) return finish(failure);
     while (!controller_.done()) {
       const StepOutcome outcome = attempt();
@@ -87,7 +87,7 @@ class Run : public RunState {
   }
 
  private:
-  // The step from here, of the length that succeeds; not accepted, its failure says why the run ends.
+  // The step from here, of a length that succeeds. If it is not accepted, its failure says why the run ends.
   StepOutcome attempt() {
     const double driving = controller_.driving();
     const NcpOptions ncp = ncp_options(options_);

@@ -9,8 +9,8 @@
 
 namespace stokes {
 
-// Everything that the rest of a run depends on, between two steps, as text (state_text.hpp): a run that starts from it
-// makes the same steps, bit for bit, as the one that it was taken from.
+// Everything that the rest of a run depends on, between two steps, as text (state_text.hpp). A run that starts from it
+// makes the same steps, bit for bit, as the original run.
 struct SavedRun {
   long step = 0;
   double time = 0.0;
@@ -29,24 +29,24 @@ class RunState {
 enum class RunStage {
   under_way,    // after an accepted step
   failed,       // the step from this state, or, if bodies overlap, this state itself ends the run
-  interrupted,  // the step from this state was given up for a signal, which ends the run
+  interrupted,  // the step from this state was abandoned because of a signal, which ends the run
 };
 using StateObserver = std::function<void(const RunState&, RunStage)>;
 
 struct SimulationOptions : TimeOptions {
   StepperOptions stepper;
-  std::optional<SavedRun> start;  // to go on from, instead of the beginning
+  std::optional<SavedRun> start;  // to continue from, instead of starting at the beginning
   StateObserver observe_state;    // after the other observer; it may end the run with an exception
 };
 
-// State of a run at the start of a step, with what moves it from there; without for the last state.
+// State of a run at the start of a step, with the outcome of this step; the last state has none.
 struct StepRecord {
   long step;
   double time;
   const Suspension& bodies;
   double min_gap;              // smallest distance between two bodies, negative if they overlap
   const StepOutcome* outcome;  // null: the final configuration
-  double driving = 1.0;        // what the step from here multiplies the flow and the walls' velocities by
+  double driving = 1.0;        // factor on the flow and the walls' velocities in the step from here
 };
 using Observer = std::function<void(const StepRecord&)>;
 
@@ -55,10 +55,10 @@ struct RunSummary {
   int factorisations = 0, shapes = 0;
 };
 
-// Every state goes to the observer in order, the final one last, also when the run ends early with a
+// Passes every state to the observer in order, the final one last, also when the run ends early with a
 // NumericalError: bodies overlap (contact = none), the contact problem or GMRES fails (adaptive: at the
 // smallest step, 1e-6 time_step), or adaptive steps would have to be smaller than that. The message names step, time
-// and cause. Interruption when a signal asks for it, after the state to go on from was observed.
+// and cause. Throws an Interruption when a signal asks for it, after the state to continue from was observed.
 RunSummary simulate(const Suspension& initial, const SimulationOptions& options, const Observer& observe);
 
 }  // namespace stokes

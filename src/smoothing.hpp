@@ -1,8 +1,8 @@
 // Smoothing of a time series with spikes by a multiscale local polynomial transform.
 //
-// A pyramid of local linear fits: with s_0 the values, s_{j+1} is the fit through s_j, with the kernel 1 - (x/w)^2 of
-// half-width w = 3 spacings of s_j, at every second of its places; the detail d_j = s_j - (fit through s_{j+1} at the
-// places of s_j) is kept at all of them, so that values and transform are equivalent. Smoothing applies a soft threshold
+// A pyramid of local linear fits starts from the values s_0. s_{j+1} is the fit through s_j, with the kernel 1 - (x/w)^2 of
+// half-width w = 3 spacings of s_j, at every second of its places. The detail d_j = s_j - (fit through s_{j+1} at the
+// places of s_j) is kept at all places, so that values and transform are equivalent. Smoothing applies a soft threshold
 // to the details and adds everything up again. (After Jansen and Amghar, Multiscale local polynomial decompositions using
 // bandwidths as scales.)
 #pragma once

@@ -34,7 +34,7 @@ Table read_result(const fs::path& file) {
   return read_csv(file);
 }
 
-// First rows of the states; each has a row for every body.
+// The first row of each state; every state has a row for every body.
 std::vector<int> find_states(const Table& trajectory, int count) {
   const std::vector<double> step = trajectory.numbers("step"), body = trajectory.numbers("body");
   std::vector<int> first;

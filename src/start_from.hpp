@@ -12,9 +12,9 @@ struct EarlierState {
   std::filesystem::path file;  // bodies.csv of the run, absolute
 };
 
-// `text`: the folder of the run and, behind a space, a time of its trajectory.csv; without one the latest state there.
+// `text`: the folder of the run and, behind a space, a time of its trajectory.csv; without a time the latest state there.
 // Numbers keep all their bits. InputError for files that are missing or do not belong together, and for a time without a
-// state, with the nearest that has one.
+// state; the message names the nearest time with a state.
 EarlierState earlier_state(const std::string& text);
 
 }  // namespace stokes

@@ -1,5 +1,5 @@
-// The text in which the state of a run is kept: lines of a name and its numbers, every double to the last bit. Whatever
-// has a state writes it with save(StateWriter&) and takes it back, in the same order, with restore(StateReader&).
+// The state of a run as text: lines of a name and its numbers, every double to the last bit. Every object with
+// a state writes it with save(StateWriter&) and reads it back, in the same order, with restore(StateReader&).
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ class StateWriter {
   std::string text_;
 };
 
-// std::runtime_error for a text that is not what was written.
+// std::runtime_error if the text differs from what was written.
 class StateReader {
  public:
   explicit StateReader(std::string_view text) : rest_(text) {}

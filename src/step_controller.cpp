@@ -9,12 +9,12 @@ namespace {
 
 constexpr double smallest_part = 1e-6;  // of time_step
 
-// A step grows by half after three steps in a row that found their contacts in two iterations, and five since the latest
-// rejection.
+// The step grows by half after three consecutive steps that found their contacts in two iterations, and at least five steps
+// after the latest rejection.
 constexpr int easy_iterations = 2, easy_steps_to_grow = 3, quiet_steps_to_grow = 5;
 constexpr double growth = 1.5;
 
-// Of the rule by error (step_controller.hpp).
+// Constants of the rule by error (step_controller.hpp).
 constexpr double safety = 0.9, least_factor = 0.2, largest_factor = 3.0, least_retry = 0.1, least_error = 1e-4;
 
 }  // namespace
@@ -48,7 +48,7 @@ double StepController::propose(double limit) const {
   return cut_at_stops(std::min(next_, limit));
 }
 
-// By error, the rest before a stop is also shared by two steps, so that the last is not much smaller than the others.
+// In the rule by error, two steps share the rest before a stop, so that the last is not much smaller than the others.
 double StepController::cut_at_stops(double dt) const {
   for (const double stop : stops()) {
     if (time_ >= stop) continue;
@@ -105,7 +105,7 @@ void StepController::adapt_to_error(const StepOutcome& outcome) {
                                       : safety * std::pow(e, -1.0 / 3.0);
   factor = std::clamp(factor, least_factor, largest_factor);
   if (had_rejections) factor = std::min(factor, 1.0);
-  const bool cut = outcome.dt < next_;  // at a stop or by the geometry: that says nothing of the next step
+  const bool cut = outcome.dt < next_;  // at a stop or by the geometry, which does not concern the next step
   next_ = std::min(options_.time_step, cut ? std::max(next_, factor * outcome.dt) : factor * outcome.dt);
   error_before_ = e;
 }

@@ -1,9 +1,10 @@
-// When each step starts, how long it is, and which way the flow is driven. There are three rules for the length:
-// fixed; halved on a failure (adaptive); or by the estimated error of the steps (tolerance), with e = error / tolerance,
+// When each step starts, how long it is, and in which direction the flow is driven. There are three rules for the length:
+// fixed; halved on a failure (adaptive); or by the estimated error of the steps (tolerance). In the last, with
+// e = error / tolerance:
 //   a step is taken if e <= 1, or if it restores the separation of bodies that start too close;
 //   the next one is .9 e^(-.7/3) e_before^(.4/3) times as long, between .2 and 3 times, not longer after a rejection;
-//   a rejected one is tried again .9 e^(-1/3) times as long, at least a tenth, and .9 e^(-1/2) times from the second time on:
-//   with a contact that begins or ends within it the error is of second order. A failure halves it.
+//   a rejected one is tried again .9 e^(-1/3) times as long, at least a tenth, and from the second time on .9 e^(-1/2)
+//   times, because the error is of second order if a contact begins or ends within the step. A failure halves it.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,7 @@ class StepController {
   double time() const { return time_; }
   bool done() const;
 
-  // Of the step that starts now. Exact counting forgives the rounding of k dt; accumulated does not.
+  // For the step that starts now. Exact counting tolerates the rounding of k dt; accumulated counting does not.
   double driving() const;
 
   // Steps below it end the run.
@@ -51,7 +52,7 @@ class StepController {
   // False if the step cannot be tried again with a smaller one.
   bool reject(const StepOutcome& outcome);
   long rejected() const { return rejected_; }
-  // Of the attempts at the present step.
+  // Counts of the attempts at the present step.
   int rejected_by_error() const { return rejected_by_error_; }
   int rejected_by_failure() const { return rejected_by_failure_; }
 
@@ -69,7 +70,7 @@ class StepController {
   long step_ = 0, rejected_ = 0;
   double time_ = 0.0;
   double next_;                              // length of the next step, when adaptive
-  int easy_steps_ = 0, since_rejection_ = 6;  // accepted ones, which decide when it may grow
+  int easy_steps_ = 0, since_rejection_ = 6;  // accepted steps, which decide when the step may grow
   int rejected_by_error_ = 0, rejected_by_failure_ = 0;
   double error_before_ = 0.0;                 // of the latest accepted step, in tolerances; 0: none
 };

@@ -19,8 +19,8 @@ enum class Coupling {
 enum class LcpMatrix {
   full,  // the one that moves the bodies: a Stokes solve for each contact
   near,  // at first the bodies around each contact as if there were no others. Every iterate is moved with the full
-         // mobility, one Stokes solve each, from which the matrix learns, in this step and for the next ones. Where
-         // that does not converge, as full
+         // mobility, by one Stokes solve. The matrix learns from it, for this step and for later ones. If that does not
+         // converge, as full
   self,  // each body as if it were alone; every iterate is then moved with the full mobility. The same for
          // Coupling::local
 };
@@ -28,16 +28,16 @@ enum class LcpMatrix {
 // How a step is made of configurations and contact problems (integrator.hpp).
 enum class IntegratorKind {
   euler,     // forward Euler: the paper's
-  ab2,       // second-order Adams-Bashforth: the price of forward Euler
+  ab2,       // second-order Adams-Bashforth: the cost of forward Euler
   rk3,       // third-order Runge-Kutta, three configurations a step; the one whose error can be estimated
   midpoint,  // implicit midpoint, symmetric in time
 };
 
 struct StepperOptions {
   BackgroundFlow flow;
-  // Of the bodies' velocities, in units of the rate and size of what drives them. Nodes, clusters and tolerances are then
-  // chosen at every configuration, and points_per_body, refine, Container::points, Body::points and
-  // stokes.gmres_tolerance are not read. 0: these are.
+  // Accuracy of the bodies' velocities, in units of the rate and size of what drives them. Nodes, clusters and tolerances
+  // are then chosen at every configuration, and points_per_body, refine, Container::points, Body::points and
+  // stokes.gmres_tolerance are not used. 0: these values are used.
   double accuracy = 0.0;
   int points_per_body = 32;
   Refine refine = Refine::none;

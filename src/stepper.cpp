@@ -11,7 +11,7 @@ namespace stokes {
 
 namespace {
 
-// Fixed bodies move as their surfaces do, by the poses of a step; only the container's surface turns beside them.
+// A step changes the poses of fixed bodies, which move with their surfaces. Only the container's surface is turned here.
 void turn_container(Suspension& bodies, double path) {
   if (bodies.container) bodies.container->angle = bodies.container->surface.angular_velocity * path;
 }
@@ -33,7 +33,7 @@ void add(std::vector<ActiveContact>& sum, double weight, const std::vector<Activ
   }
 }
 
-// What a stage contributes to the outcome of a step.
+// Adds the contribution of a stage to the outcome of a step.
 void add_stage(StepOutcome& outcome, const Stage& stage) {
   const ContactSolution& solution = stage.solution;
   const StokesSystem& system = stage.at->system();
@@ -55,7 +55,7 @@ void add_stage(StepOutcome& outcome, const Stage& stage) {
   outcome.estimated_error = std::max(outcome.estimated_error, stage.at->estimated_error());
 }
 
-// Of no stage: anything adds to itself.
+// The outcome without any stage. Adding -0 changes no number.
 StepOutcome empty_outcome(std::size_t bodies) {
   constexpr Wrench none{{-0.0, -0.0}, -0.0};
   StepOutcome outcome;
@@ -68,7 +68,7 @@ StepOutcome empty_outcome(std::size_t bodies) {
 
 }  // namespace
 
-// The present configuration and everything that steps leave, hidden from the users of a stepper.
+// The present configuration and the memory of earlier steps, hidden from the users of a stepper.
 class Stepper::State : public StepStart {
  public:
   State(Suspension bodies, const StepperOptions& options)
@@ -196,7 +196,7 @@ class Stepper::State : public StepStart {
   }
 
  private:
-  // The bodies at other poses, the container turned as after this time.
+  // The bodies at other poses, with the container turned as after this time.
   Suspension at_poses(const std::vector<Pose>& poses, double elapsed) const {
     Suspension bodies = bodies_;
     for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].pose = poses[i];
@@ -204,7 +204,7 @@ class Stepper::State : public StepStart {
     return bodies;
   }
 
-  // Forward Euler does not ask.
+  // Not used by forward Euler.
   bool starts_too_close() const {
     const StepperOptions& options = fluid_.options;
     if (options.integrator == IntegratorKind::euler || options.contact != ContactModel::gap) return false;
@@ -221,7 +221,7 @@ class Stepper::State : public StepStart {
   FluidMemory memory_;
   std::optional<double> continued_driving_;  // of the step before, if the next one may continue it
 
-  // Of the step under way.
+  // State of the step under way.
   double driving_ = 1.0, dt_ = 0.0;
   bool restoring_ = false;
   NcpOptions ncp_;

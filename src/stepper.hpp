@@ -1,5 +1,5 @@
-// A suspension that moves in time steps. A step is attempted by an integrator (integrator.hpp), nothing moves, and it may
-// then be accepted: the bodies go to its end.
+// A suspension that moves in time steps. An integrator (integrator.hpp) attempts a step without moving the bodies.
+// Accepting the step moves them to its end.
 #pragma once
 
 #include <memory>
@@ -36,7 +36,7 @@ struct StepOutcome {
   int most_nodes = 0;                  // of a boundary
   int unresolved = 0;                  // boundaries; of fixed nodes, the shortfalls
   std::vector<Shortfall> shortfalls;   // of fixed nodes
-  // The fluid at the start of the step, and the density of all that drives it there; none if no stage is there.
+  // The fluid at the start of the step, and the density of everything that drives it there; none if no stage is there.
   std::shared_ptr<const Configuration> at_start;
   ComplexVector density;
 };
@@ -51,15 +51,15 @@ class Stepper {
   int shape_count() const;
 
   // Attempts a step of size dt with everything that drives the fluid multiplied by `driving`. Nothing moves. Another
-  // attempt from the same place reuses what was solved there, and gives what it would have given without this one.
-  // A contact force that does not part its bodies, or mobilities that are not symmetric, mean nodes too sparse for
-  // the gap: the step fails. NumericalError when GMRES fails.
+  // attempt from the same poses reuses what was solved there; its result does not depend on earlier attempts. The step
+  // fails if a contact force does not part its bodies or mobilities are not symmetric, because the nodes are then too
+  // sparse for the gap. NumericalError when GMRES fails.
   StepOutcome attempt(double dt, double driving, const NcpOptions& ncp);
 
   // Moves the bodies to the end of the latest attempt, which has not failed.
   void accept();
 
-  // Both; after a failure the bodies stay where they are.
+  // Attempts and accepts a step. After a failure the bodies stay where they are.
   StepOutcome step(double dt, double driving, const NcpOptions& ncp);
 
   // The largest step in which, by the contact-free velocities, no body turns by more than 0.2, no two neighbours
@@ -67,8 +67,8 @@ class Stepper {
   // its own.
   double geometric_step_limit(double driving);
 
-  // What the latest accepted step leaves: the poses and every memory. Restored, a stepper of the same bodies and options
-  // makes the same steps to the last bit.
+  // The state after the latest accepted step: the poses and every memory. A stepper of the same bodies and options that is
+  // restored from it makes the same steps to the last bit.
   void save(StateWriter& writer) const;
   void restore(StateReader& reader);
 

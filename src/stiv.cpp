@@ -29,7 +29,8 @@ std::vector<Complex> offset_polygon(const Shape& shape, int vertices, double off
   return points;
 }
 
-// Of a volume between bodies (or the container) of these sizes, the vertices of which are at least `spacing` apart.
+// The tolerance of a volume between bodies (or a body and the container) of these sizes, with vertices at least `spacing`
+// apart.
 double volume_tolerance(double size_a, double size_b, double separation, double spacing) {
   return std::max(smallest_tolerance * size_a * size_b, contact_tolerance * separation * spacing);
 }
@@ -135,7 +136,7 @@ StivCollector::StivCollector(const Suspension& start, double separation, const S
   }
 }
 
-// Seen from the centre of a, so that neither a far origin nor a common translation costs digits.
+// Relative to the centre of a, so that neither a distant origin nor a common translation costs digits.
 std::vector<ContactConstraint> StivCollector::collect_pair(int a, int b, const std::vector<Pose>& trial) const {
   const Complex shift_start = start_[b].pose.centre - start_[a].pose.centre;
   const Complex shift_end = trial[b].centre - trial[a].centre;
@@ -172,7 +173,7 @@ std::vector<ContactConstraint> StivCollector::collect_pair(int a, int b, const s
   return regions;
 }
 
-// Seen from the centre of the container.
+// Relative to the centre of the container.
 std::vector<ContactConstraint> StivCollector::collect_wall(int a, const Pose& trial) const {
   const Container& container = *start_.container;
   const Complex from = start_[a].pose.centre - container.centre, to = trial.centre - container.centre;

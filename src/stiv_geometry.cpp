@@ -62,7 +62,7 @@ class Target {
 
   const Box& box() const { return box_; }
 
-  // Keeps the edges whose way meets the region.
+  // Keeps the edges whose path meets the region.
   void restrict_to(const Box& region) {
     for (int j = 0; j < count_; ++j)
       if (edge_box_[j].meets(region)) edges_.push_back(j);
@@ -171,7 +171,7 @@ std::vector<WallHit> wall_hits(const MovingPolygon& moving, double radius) {
   for (std::size_t k = 0; k < moving.start.size(); ++k) {
     const Complex from = moving.start[k], to = moving.end[k], way = to - from;
     if (!(std::abs(to) > radius)) continue;
-    // Seen from the end: |to - s way| = radius at s = 1 - tau, the smaller root of a s^2 - 2 b s + c, c > 0.
+    // Backwards from the end: |to - s way| = radius at s = 1 - tau, the smaller root of a s^2 - 2 b s + c, c > 0.
     const double a = dot(way, way), b = dot(way, to);
     const double c = (std::abs(to) - radius) * (std::abs(to) + radius), discriminant = b * b - a * c;
     const double rest = b > 0.0 && discriminant >= 0.0 ? c / (b + std::sqrt(discriminant)) : infinity;

@@ -11,7 +11,7 @@ namespace stokes {
 //   x_k(tau) = (1 - tau) start_k + tau end_k,   tau in [0, 1].
 // Edge j runs from vertex j to vertex j + 1, the last one back to vertex 0.
 // The polygon must stay convex. A rigid polygon does if its rotation in the step is below pi: on the
-// straight ways of its vertices it is rotated and shrunk, by cos(rotation / 2) at most.
+// straight paths of its vertices it is rotated and shrunk, by cos(rotation / 2) at most.
 struct MovingPolygon {
   std::vector<Complex> start, end;
 };
@@ -36,11 +36,11 @@ struct VertexHit {
 // the vertex leaves, and its first entry after that counts.
 //
 // At a corner (to 1e-9 of the edge, where rounding would choose between its edges) the normal bisects those
-// of the two, which keeps symmetric configurations symmetric.
+// of the two edges, so that symmetric configurations stay symmetric.
 //
-// Every entry is found, also one followed by an exit. Two polygons that are apart at tau = 0 touch first
-// with a vertex of one on the other, so testing both ways misses no contact.
-// Cost: candidates are cut down by boxes around the ways of vertices and edges; at worst the product of the
+// Every entry is found, also one followed by an exit. When two polygons that are apart at tau = 0 first touch,
+// a vertex of one is on the other; testing both ways therefore misses no contact.
+// Cost: boxes around the paths of vertices and edges reduce the candidates; at worst the product of the
 // numbers of vertices, 3 ns each.
 std::vector<VertexHit> vertex_hits(const MovingPolygon& moving, const MovingPolygon& target);
 

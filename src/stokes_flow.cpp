@@ -1,4 +1,4 @@
-// What a solution says beside the velocities of the bodies.
+// Quantities of a solution other than the velocities of the bodies.
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +40,7 @@ std::vector<int> StokesSystem::near_points(const PlacedShape& b, const std::vect
   return near;
 }
 
-// Near a boundary the trapezoid sum of its nodes is left out, not taken back: next to a node it is all round-off.
+// Near a boundary the trapezoid sum of its nodes is left out, not subtracted: close to a node it is all round-off.
 std::vector<PointFlow> StokesSystem::double_layer_flow(const std::vector<Complex>& points,
                                                        const ComplexVector& density) const {
   const ComplexVector lab = in_laboratory(all_, density.data());

@@ -12,8 +12,8 @@ namespace stokes {
 
 namespace {
 
-// Bodies whose circumscribed circles end within this part of their radius from those of the bodies in contact count
-// as near them. What it decides is not a result, but how many iterations find it.
+// A body is near the bodies in contact if the distance of their circumscribed circles is below this fraction of its radius.
+// This decides the number of iterations, not the result.
 constexpr double nearby = 1.0;
 
 bool is_zero(const Wrench& w) { return w.force == Complex(0.0) && w.torque == 0.0; }
@@ -79,7 +79,7 @@ void StokesSystem::apply(const BoundarySet& set, const Vector& in, Vector& out) 
   });
 }
 
-// `result`: at the boundary's first node.
+// `result` points to the boundary's first node.
 void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& in,
                                    const std::vector<LongCircleFlow>& flows, Complex* result) const {
   const PlacedShape& b = boundaries_[i];
@@ -107,7 +107,7 @@ void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& 
   }
 }
 
-// Of all of them, in the order of long_circles_; empty of those outside the set.
+// Flows of all long circles, in the order of long_circles_; zero for circles outside the set.
 std::vector<StokesSystem::LongCircleFlow> StokesSystem::long_circle_flows(const BoundarySet& set, const Complex* density) const {
   std::vector<LongCircleFlow> flows;
   for (const LongCircle& circle : long_circles_) {
@@ -119,7 +119,7 @@ std::vector<StokesSystem::LongCircleFlow> StokesSystem::long_circle_flows(const 
   return flows;
 }
 
-// The series less the trapezoid rule.
+// The series minus the trapezoid rule.
 void StokesSystem::add_long_circle(const NearBlock& near, const std::vector<LongCircleFlow>& flows, Complex* result) const {
   std::size_t c = 0;
   while (long_circles_[c].boundary != near.source) ++c;
@@ -139,7 +139,7 @@ void StokesSystem::add_long_circle(const NearBlock& near, const std::vector<Long
     result[near.rows[r]] += std::conj(target.axis) * (source.axis * exact[r] - plain[static_cast<Eigen::Index>(r)]);
 }
 
-// What the boundaries' equations have on their right, laboratory frame: surface velocities of walls less background
+// Right-hand side of the boundaries' equations, laboratory frame: surface velocities of walls minus background
 // and completion flows.
 ComplexVector StokesSystem::boundary_data(const BoundarySet& set, const BackgroundFlow& flow,
                                           const std::vector<Wrench>& wrenches) const {
@@ -182,7 +182,7 @@ Vector StokesSystem::straining_data(const BoundarySet& set, ComplexVector data, 
   return as_real(data);
 }
 
-// Adds the rigid velocities and the reactions that the density stands for, in the laboratory frame. The density of
+// Adds the rigid velocities and the reactions of the density, in the laboratory frame. The density of
 // boundaries outside the set is zero.
 void StokesSystem::finish(const BoundarySet& set, const Vector& density, StokesSolution& solution) const {
   solution.density = ComplexVector::Zero(node_count());

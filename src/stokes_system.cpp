@@ -15,11 +15,11 @@ namespace stokes {
 
 namespace {
 
-// Pairs closer than this part of the smaller circumradius are solved together by the preconditioner.
+// Pairs closer than this fraction of the smaller circumradius are solved together by the preconditioner.
 constexpr double close_pair = 0.35;
 
-// What they leave out of what passes between the two. Were it more, it would show where a symmetry of the bodies holds the
-// number of iterations down; the tighter the tolerance, the sooner.
+// Singular values of their interaction below this are left out. Larger ones would cost iterations, first for symmetric
+// arrangements of bodies, and the sooner the tighter the tolerance.
 double pair_negligible(double gmres_tolerance) { return std::clamp(1e5 * gmres_tolerance, 1e-5, 1e-3); }
 
 }  // namespace
@@ -56,7 +56,7 @@ void StokesSystem::place(const Suspension& bodies, const std::vector<Discretisat
     const BoundaryKind kind = body.fixed ? BoundaryKind::fixed : BoundaryKind::free;
     boundaries_[i] = {shapes.get(body.shape, nodes[i], kind, log_length_), body.pose, body.pose.axis(), 0};
   };
-  // The cache is filled by one thread; nodes of this configuration alone do not enter it.
+  // One thread fills the cache. Nodes that belong to this configuration alone do not enter it.
   for (long i = 0; i < count; ++i)
     if (nodes[i].clusters.empty()) make(i);
   parallel_for(count, [&](long i) {
@@ -80,7 +80,7 @@ void StokesSystem::place(const Suspension& bodies, const std::vector<Discretisat
   all_ = BoundarySet(boundaries_, std::move(members));
 }
 
-// The frames of all pairs of clusters that a pair of nearest points belongs to.
+// The frames of all pairs of clusters that contain a pair of nearest points.
 void StokesSystem::find_contact_frames(const Suspension& bodies) {
   const auto clustered = [this](int i) { return !boundaries_[i].shape->nodes.clusters.empty(); };
   std::vector<Complex> centres;
@@ -135,7 +135,7 @@ void StokesSystem::add_contact_frame(int a, int b, const Facing& facing) {
   frames_.push_back({b, a, at_b.cluster, at_a.cluster, -std::conj(turn) * displacement, std::conj(turn)});
 }
 
-// Half the spacing of nodes without clusters, whose sums need no help, and no more than a part of the bodies with them.
+// At most half the spacing of nodes without clusters, whose sums need no correction, and a fraction of clustered bodies.
 double StokesSystem::softening_length() const {
   constexpr double part = 1e-2;
   double length = 0.0, most = std::numeric_limits<double>::infinity();
@@ -148,7 +148,7 @@ double StokesSystem::softening_length() const {
   return length > 0.0 ? most : 0.0;
 }
 
-// Nodes of the target as points near the source; of a boundary itself as its own nodes.
+// Nodes of the target as points near the source; for the source itself its own nodes.
 std::vector<Target> StokesSystem::seen_from(int source, int target, const std::vector<int>& rows) const {
   const PlacedShape &t = boundaries_[target], &s = boundaries_[source];
   std::vector<Target> result;
@@ -166,7 +166,7 @@ std::vector<Target> StokesSystem::seen_from(int source, int target, const std::v
   return result;
 }
 
-// What the sum over nodes takes for the double layer of some nodes at others, zero for a node itself.
+// The double layer of some nodes at others as the sum over nodes gives it; zero for a node itself.
 Matrix StokesSystem::plain_rows(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const {
   const PlacedShape &t = boundaries_[target], &s = boundaries_[source];
   const double least = std::max(std::pow(softening_, 4), 1e-148);
@@ -188,7 +188,7 @@ double StokesSystem::near_reach(int boundary) const {
   return near_distance(*boundaries_[boundary].shape, 0.1 * options_.gmres_tolerance);
 }
 
-// Between nodes of one boundary, whose differences its body frame and its clusters know better than the laboratory.
+// Correction between nodes of one boundary. Its body frame and clusters give their differences more accurately.
 void StokesSystem::find_own_correction(NearBlock& near) const {
   const PlacedShape& b = boundaries_[near.target];
   near.rows = all_nodes(b);

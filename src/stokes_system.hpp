@@ -1,16 +1,16 @@
 // The completed double-layer equations of a suspension at one configuration, and their solution.
 //
-// Unknown: one density per boundary (the bodies in order, then the container), kept in the BODY frame, so that a
-// shape's preconditioner block serves every body of that shape unrotated and a density stays attached to its
-// material nodes from one configuration to the next. On a free body j, forces and torques given,
+// Unknown: one density per boundary (the bodies in order, then the container), kept in the BODY frame. A shape's
+// preconditioner block then serves every body of that shape unrotated, and a density stays attached to its material nodes
+// from one configuration to the next. On a free body j with given force and torque
 //   (-1/2 + D) eta - (1/2) B G^-1 B_w^T eta = -u_inf - Sum_k (completion flow of F_k, L_k),
-//   (U_j, omega_j) = (1/2) G^-1 B_w^T eta_j
-// (the rigid velocities eliminated; B, G, B_w and the equations of the other kinds of boundaries:
-// discrete_shape.hpp). Fixed bodies add the completion flows of their own, unknown, force and torque to every row;
-// the equation on walls has the surface velocity on the right. The operator maps a rigid density of a free body to
-// -1/2 of itself and a rigid density makes no velocity in the fluid, so the rigid part of the right-hand
-// side is solved exactly and GMRES sees only the rest: the tolerance is relative to the straining part
-// of the data and does not degrade with a body's distance from the origin.
+//   (U_j, omega_j) = (1/2) G^-1 B_w^T eta_j,
+// where the rigid velocities are eliminated (B, G, B_w and the equations of the other kinds of boundaries:
+// discrete_shape.hpp). Fixed bodies add to every row the completion flows of their own, unknown, force and torque. The
+// equation on walls has the surface velocity on the right. The operator maps a rigid density of a free body to -1/2 of
+// itself, and a rigid density makes no velocity in the fluid. The rigid part of the right-hand side is therefore solved
+// exactly, and GMRES sees only the rest: its tolerance is relative to the straining part of the data and does not degrade
+// with a body's distance from the origin.
 #pragma once
 
 #include <optional>
@@ -84,9 +84,9 @@ class StokesSystem {
   StokesSolution sweep(const BackgroundFlow& flow, const std::vector<Wrench>& wrenches,
                        const ComplexVector& lagged) const;
 
-  // The response to wrenches of the bodies that they act on and of the bodies within about a body's length, as if there
-  // were no others. The others do not move. Solved to the given tolerance. Apart from finding these bodies the cost
-  // does not depend on the number of bodies.
+  // The response to wrenches as if there were only the bodies that they act on and the bodies within about a body's length
+  // of these. All others do not move. Solved to the given tolerance. Apart from finding these bodies the cost does not
+  // depend on the number of bodies.
   StokesSolution solve_nearby(const std::vector<Wrench>& wrenches, double tolerance) const;
 
   // The same for any velocity on the boundaries (all nodes, laboratory frame) instead of that of the flow and the walls.
@@ -131,8 +131,8 @@ class StokesSystem {
     ComplexVector density; // laboratory frame
   };
 
-  // A target whose cluster faces one of the source: p_source - p_target, the points of the clusters, and the tangent
-  // of the source there, in the frame of the tangent of the target.
+  // A cluster of the target that faces a cluster of the source: p_source - p_target of the points of the clusters, and the
+  // tangent of the source there, both in the frame of the tangent of the target.
   struct ContactFrame {
     int target, source;
     int target_cluster, source_cluster;

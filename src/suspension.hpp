@@ -39,7 +39,7 @@ struct SurfaceMotion {
   }
 };
 
-// A rigid body that moves freely; a fixed one, held in place or driven at a given velocity; or an inner wall of the domain.
+// A rigid body that moves freely, a fixed body that is held or driven at a given velocity, or an inner wall of the domain.
 struct Body {
   Shape shape;
   Pose pose;
@@ -49,7 +49,7 @@ struct Body {
   SurfaceMotion surface{};  // of a fixed body
   int points = 0;           // on its boundary; 0: as many as on every body
 
-  // A fixed body, no wall, that changes its place or angle.
+  // True for a fixed body, not a wall, whose pose changes.
   bool is_driven() const { return fixed && points == 0 && (surface.translation != 0.0 || surface.angular_velocity != 0.0); }
 };
 
@@ -62,7 +62,7 @@ struct Container {
   double angle = 0.0;  // by which the surface has turned
 };
 
-// Stands for the container where a pair has the index of its second body. It is larger than any index and in no array.
+// Stands for the container where a pair has the index of its second body. It is larger than any index of a body.
 inline constexpr int container_index = std::numeric_limits<int>::max();
 
 // "bodies 3 and 5" or "body 3 and the container".

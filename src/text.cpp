@@ -40,8 +40,8 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
-// A thousand for each edit without regard to case. An abbreviation (min_sep) is a nearer relative than a word with some
-// of the same letters: it scores between one edit and two, the closest length first. A longer word than any name is cut.
+// A thousand for each edit, ignoring case. An abbreviation (min_sep) is nearer than a word with some
+// of the same letters: it scores between one edit and two, the closest length first. A very long word is cut.
 long distance_score(std::string_view word, const std::string& name) {
   constexpr std::size_t longest = 64;
   const std::string given = lower_case(word.substr(0, longest)), known = lower_case(name);

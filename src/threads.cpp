@@ -39,7 +39,7 @@ std::atomic<int>& count_of_threads() {
   return count;
 }
 
-// Indices that are handed out one by one, and of all exceptions the one of the lowest index: which it is does not depend
+// Indices handed out one by one, and the exception of the lowest index. Which exception this is does not depend
 // on the threads.
 class Loop {
  public:
@@ -68,8 +68,8 @@ class Loop {
   std::exception_ptr error_;
 };
 
-// Loops often follow each other within microseconds, while waking up takes tens of them: a thread yields its core so often
-// before it sleeps.
+// Loops often follow each other within microseconds, while waking up takes tens of them. A thread therefore yields its core
+// a number of times before it sleeps.
 template <class Condition>
 void linger_until(const Condition& is_met) {
   for (int k = 0; k < 100 && !is_met(); ++k) std::this_thread::yield();
@@ -117,7 +117,7 @@ class Team {
   void grow(int helpers) {
     try {
       while (static_cast<int>(threads_.size()) < helpers) threads_.emplace_back([this] { serve(); });
-    } catch (const std::system_error&) {  // the system grants no more: those that are there do the work
+    } catch (const std::system_error&) {  // the system allows no more threads: the existing ones do the work
     }
   }
 

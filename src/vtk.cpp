@@ -47,7 +47,7 @@ struct Outlines {
   }
 };
 
-// What a cell says of its body.
+// The data of each cell about its body.
 struct CellData {
   std::vector<std::int32_t> body, fixed;
   std::vector<double> velocity, omega, contact_force, contact_torque;  // vectors have three components
@@ -126,7 +126,7 @@ VtkWriter::~VtkWriter() {
   if (is_series_written_) return;
   try {
     write_series();
-  } catch (const std::exception&) {  // the pictures are there, only their times are not listed
+  } catch (const std::exception&) {  // the pictures exist, only their times are not listed
   }
 }
 
@@ -138,7 +138,7 @@ void VtkWriter::write(const StepRecord& record) {
   write_file_atomically(folder_ / concat("step_", number, ".vtk"), vtk_file(record));
 }
 
-// The second line of a file is "step N, time T". Numbers of steps have leading zeros: more digits are later.
+// The second line of a file is "step N, time T". Step numbers have leading zeros, so that longer names are later steps.
 void VtkWriter::write_series() {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder_))

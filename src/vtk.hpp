@@ -1,4 +1,4 @@
-// Pictures of a run for ParaView: the bodies' outlines as polygons with the numbers of each body, one file a state.
+// Pictures of a run for ParaView: one file per state, with the bodies' outlines as polygons and the numbers of each body.
 #pragma once
 
 #include <filesystem>
@@ -22,13 +22,13 @@ class VtkWriter {
   VtkWriter(const std::filesystem::path& folder, int output_every);
   VtkWriter(const VtkWriter&) = delete;
   VtkWriter& operator=(const VtkWriter&) = delete;
-  // Writes the series, if that has not been done, without a complaint if it cannot: a run that ends early has other messages.
+  // Writes the series if that has not been done. An error is not reported: a run that ends early has other messages.
   ~VtkWriter();
 
   // Replaces each file as a whole. NumericalError on a write error.
   void write(const StepRecord& record);
 
-  // The same for the series of the files that are there, those of a run before an interruption included.
+  // The same for the series of the files in the folder, those of a run before an interruption included.
   void write_series();
 
  private:

@@ -1,5 +1,5 @@
-// Bodies between cylinders at growing resolution, of bodies and walls together.
-// An ellipse 0.425 from the outer wall needs more of its points: with 256 of them 1.8e-8 is left, with 1024 1e-13.
+// Bodies between cylinders at increasing resolution, of bodies and walls together.
+// An ellipse 0.425 from the outer wall needs more wall nodes: with 256 of them the error is 1.8e-8, with 1024 1e-13.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Solved solved(const std::vector<Body>& bodies, int points, int wall_points) {
   return {s.velocity, s.reaction.back().torque, system.container_wrench(s.density, {}).torque};
 }
 
-// Relative to the largest velocity, the largest angular velocity and the torques.
+// Errors relative to the largest velocity, the largest angular velocity and the torques.
 struct Differences {
   double velocity = 0.0, omega = 0.0, inner_torque, outer_torque;
 
@@ -56,7 +56,7 @@ void check_convergence(const std::string& name, const std::vector<Body>& bodies)
   }
   MESSAGE(table);
   CHECK(errors[2] < 1e-8);
-  // Spectral: twice the points square the error, until what GMRES leaves.
+  // Spectral: twice the nodes square the error, down to that of GMRES.
   CHECK(errors[0] > 1e-8);
   CHECK(errors[1] < std::max(1e-9, 10.0 * errors[0] * errors[0]));
 }

@@ -44,7 +44,7 @@ TurningDisc turning_disc(double a, double b, double e, double omega) {
   return {4.0 * pi * B * (c + ratio * c_coth), -4.0 * pi * ratio * B};
 }
 
-// What a disc of radius 1 with its centre 1.5 from the wall of a container exerts on the fluid in unit motion.
+// Force and torque on the fluid of a disc of radius 1 in unit motion, with its centre 1.5 from the wall of a container.
 struct DiscAtWall {
   double parallel, normal, turning;  // force, force, torque
   double torque;                     // in parallel motion
@@ -119,12 +119,12 @@ TEST_CASE("in growing containers a disc's resistance falls to that at a plane wa
     std::array<double, 3> value, excess;
     for (int k = 0; k < 3; ++k) value[k] = at[k].*of, excess[k] = (value[k] - exact) / scale;
     const double first = std::log2(excess[0] / excess[1]), order = std::log2(excess[1] / excess[2]);
-    // Without the terms in 1/R_0 and 1/R_0^2; what is left is of third order.
+    // Without the terms in 1/R_0 and 1/R_0^2 the remainder is of third order.
     const double extrapolated = (8.0 * value[2] - 6.0 * value[1] + value[0]) / 3.0;
     MESSAGE(std::string(name) << ": excess times R_0/a " << 10.0 * excess[0] << " " << 20.0 * excess[1] << " "
                               << 40.0 * excess[2] << ", order " << first << " " << order << ", extrapolated to "
                               << (extrapolated - exact) / scale);
-    // The second term is a part of a/R_0 times a few of the first: a deviation of the order that halves.
+    // The second term is a fraction of a/R_0 times a few of the first, a deviation of the order that halves.
     CHECK(std::abs(order - 1.0) < 0.1);
     CHECK(std::abs(order - 1.0) < 0.6 * std::abs(first - 1.0));
     CHECK(std::abs(extrapolated - exact) < tolerance * scale);
@@ -138,7 +138,7 @@ TEST_CASE("in growing containers a disc's resistance falls to that at a plane wa
 TEST_CASE("between walls interpolation converges algebraically, Cauchy integrals spectrally and better at every N") {
   std::string table = "relative errors of velocity and pressure in a manufactured flow:\n"
                       "    N  distance  interpolation      Cauchy integrals\n";
-  struct Largest {  // beside the boundaries, over the distances at which both schemes are close evaluations
+  struct Largest {  // near the boundaries, over the distances at which both schemes are close evaluations
     double velocity = 0.0, pressure = 0.0;
   };
   std::map<int, Largest> interpolated, cauchy;
@@ -151,7 +151,7 @@ TEST_CASE("between walls interpolation converges algebraically, Cauchy integrals
     const ComplexVector eta = a.solve_for_velocity(flow.boundary_velocity(a)).density;
     const ComplexVector cauchy_eta = b.solve_for_velocity(flow.boundary_velocity(b)).density;
     for (const double distance : {0.1, 0.03, 0.01, 1e-3}) {
-      std::vector<Complex> x{{0.0, 0.0}};  // where pressures are levelled
+      std::vector<Complex> x{{0.0, 0.0}};  // where pressures are set equal
       for (const Complex point : flow.points_beside(distance, 8)) x.push_back(point);
       std::vector<PointFlow> exact;
       for (const Complex point : x) exact.push_back(flow.at(point));
@@ -162,7 +162,7 @@ TEST_CASE("between walls interpolation converges algebraically, Cauchy integrals
                     ea.pressure, eb.velocity, eb.pressure);
       table += line;
       if (distance > 0.03) continue;
-      // With 32 nodes the density itself has errors of 1e-3, and the pressures are alike.
+      // With 32 nodes the density itself has errors of 1e-3, so both pressures have about the same error.
       CHECK(eb.velocity < (points == 32 ? 0.7 : 0.2) * ea.velocity);
       if (points > 32) CHECK(eb.pressure < 0.5 * ea.pressure);
       for (const auto& [largest, error] : {std::pair(&interpolated[points], &ea), std::pair(&cauchy[points], &eb)}) {
@@ -178,7 +178,7 @@ TEST_CASE("between walls interpolation converges algebraically, Cauchy integrals
     CHECK(interpolated[points].pressure < std::pow(2.0, -order) * interpolated[points / 2].pressure);
   }
   CHECK(interpolated[256].velocity > 1e-8);
-  // Twice the nodes square the error until what GMRES leaves.
+  // Twice the nodes square the error, down to that of GMRES.
   CHECK(cauchy[64].velocity < 10.0 * std::pow(cauchy[32].velocity, 2.0));
   CHECK(cauchy[128].velocity < 1e-9);
   CHECK(cauchy[128].pressure < 1e-8);

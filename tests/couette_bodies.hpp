@@ -1,4 +1,4 @@
-// Suspensions between cylinders of radii 5, at rest, and 10, rotating, that several tests share.
+// Suspensions between cylinders of radii 5, at rest, and 10, rotating, for several tests.
 #pragma once
 
 #include <algorithm>

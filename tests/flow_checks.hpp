@@ -93,8 +93,8 @@ inline FlowErrors flow_errors(const std::vector<PointFlow>& got, const std::vect
   return {error.velocity / scale.velocity, error.pressure / scale.pressure, error.gradient / scale.gradient};
 }
 
-// What is left of u_x and u_y after subtracting differences of the velocity, of div u, and of -lap u + grad p, by
-// differences of sixth order; a flow for which all of them are small solves the Stokes equations.
+// Residuals of u_x and u_y after subtracting differences of the velocity, of div u, and of -lap u + grad p, by
+// differences of sixth order. A flow for which all of them are small solves the Stokes equations.
 struct StokesResidual {
   double gradient, divergence, momentum;
 };

@@ -1,5 +1,5 @@
 // fuzz_input [count=N] [seed=S]: mutated case and bodies files (input_fuzzer.hpp). Exit status 1, with the file on
-// stderr, if one is not read as it should be; a crash or a hang ends the program with the number of its batch known.
+// stderr, if one is not read as it should be. A crash or a hang ends the program; the number of the batch is then known.
 
 #include <unistd.h>
 

@@ -42,7 +42,7 @@ const std::string& any_of(Random& random, const std::vector<std::string>& choice
   return choices[below(random, choices.size())];
 }
 
-// Words and numbers where a reader may stumble.
+// Words and numbers that are difficult for a reader.
 const std::vector<std::string>& hostile_tokens() {
   static const std::vector<std::string> tokens = {
       "nan", "-nan", "inf", "-inf", "infinity", "1e308", "-1e308", "1e309", "1e-308", "5e-324", "1e-400", "0", "-0", "0x10",
@@ -82,7 +82,7 @@ void replace_token(Random& random, std::string& text) {
   text.replace(begin, end - begin, any_of(random, hostile_tokens()));
 }
 
-// A number in the place of a token: of any size, or a small change of what a body may be.
+// A number that replaces a token: of any size, or a small change of a valid number.
 void replace_number(Random& random, std::string& text) {
   const auto tokens = pieces_of(text, ",= \n\r");
   if (tokens.empty()) return;
@@ -151,7 +151,7 @@ void mutate(Random& random, std::string& text) {
   }
 }
 
-// What is wrong with a case that was accepted, or nothing.
+// Describes the defect of a case that was accepted; empty if it has none.
 std::string judge(const Case& c) {
   for (const double value : {c.time_step, c.end_time, c.inner_radius, c.outer_radius, c.outer_angular_velocity,
                              c.inner_angular_velocity, c.injection_rate, c.rate, c.reverse_at.value_or(0.0),
@@ -194,7 +194,7 @@ std::string judge(const Case& c, const Suspension& bodies) {
   return std::isfinite(separation) && separation >= 0.0 ? "" : concat("the separation is ", separation);
 }
 
-// Runs `read`; false if it refuses in the way it should. Anything else goes into the report.
+// Runs `read`; false if it refuses correctly. Any other outcome goes into the report.
 template <class Read>
 bool accepts(const Read& read, FuzzReport& report) {
   const auto start = std::chrono::steady_clock::now();

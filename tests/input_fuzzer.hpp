@@ -1,4 +1,4 @@
-// Random mutations of case and bodies files, read and judged in memory: the same ones for the same seed.
+// Random mutations of case and bodies files, read and checked in memory; equal seeds give equal mutations.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ struct FuzzReport {
 
 // Mutations first, first + 1, ..., each of which depends on the seed and its own number alone, up to the first failure.
 // A file must be refused by an InputError of one line, or be accepted, in less than 5 seconds. What is accepted must be
-// finite, within the limits that case.hpp and bodies.hpp name and without overlaps, as found here pair by pair.
+// finite, within the limits of case.hpp and bodies.hpp, and without overlaps, as checked here pair by pair.
 FuzzReport fuzz_input(long first, long count, std::uint64_t seed);
 
 }  // namespace stokes

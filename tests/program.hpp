@@ -1,5 +1,5 @@
-// Runs build/simulate (or the program that the environment variable SIMULATE names) as a user would: in a
-// folder of its own, from which only the exit status, the two streams and the files come back.
+// Runs build/simulate (or the program that the environment variable SIMULATE names) as a user would, in a
+// folder of its own. Only the exit status, the two streams and the files are returned.
 #pragma once
 
 #include <sys/wait.h>
@@ -69,7 +69,7 @@ inline std::string shell_word(const std::string& text) {
 inline ProgramRun run_program(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                               const std::filesystem::path& folder, const std::string& starter = "",
                               const std::string& before = "") {
-  const TemporaryFolder streams;  // elsewhere: what the program itself leaves behind must stand alone
+  const TemporaryFolder streams;  // elsewhere, so that the folder holds only what the program itself leaves behind
   const std::string out = (streams.path() / "out").string(), err = (streams.path() / "err").string();
   std::string command = concat("cd ", shell_word(folder.string()), " && ", before, starter, shell_word(program.string()));
   for (const std::string& argument : arguments) command += concat(" ", shell_word(argument));
@@ -83,7 +83,7 @@ inline std::filesystem::path simulate_program() {
   return std::filesystem::absolute(name ? name : "build/simulate");
 }
 
-// What a run wrote. Fields are read as numbers, nan and inf included; anything else throws.
+// The output of a run. Fields are read as numbers, nan and inf included; anything else throws.
 struct Results {
   Table trajectory, steps;
 
@@ -117,7 +117,7 @@ class Workspace {
 
   // The same, but no file may have more than so many blocks of 512 bytes (of 1024 in some shells).
   ProgramRun run_limited(int blocks, const std::vector<std::string>& arguments) const {
-    const TemporaryFolder counts;  // of a program built for coverage, which would be cut short where they belong
+    const TemporaryFolder counts;  // coverage counts, which the limit would truncate in their usual place
     return run_by("", arguments, concat("export GCOV_PREFIX=", shell_word(counts.path().string()), "; ulimit -f ", blocks, "; "));
   }
 

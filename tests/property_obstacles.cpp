@@ -18,8 +18,8 @@ Body held(Body b) {
   return b;
 }
 
-// What a run of 1000 steps of a disc, body 0, in contact with a partner saw. Few nodes and a loose GMRES tolerance:
-// the separation does not depend on how well the fluid is resolved.
+// Statistics of a run of 1000 steps of a disc, body 0, in contact with a partner. It has few nodes and a loose GMRES
+// tolerance, since the separation does not depend on how well the fluid is resolved.
 struct Push {
   double smallest_gap = 1e300;
   int steps = 0, in_contact = 0;
@@ -102,7 +102,7 @@ TEST_CASE("a disc that a force pushes against a fixed disc slides around it at t
 }
 
 TEST_CASE("beside the container or a fixed body an adaptive step is as short as beside another body at rest") {
-  // Pushed to the right, the wall or the fixed disc 0.3 ahead, then nothing within a width.
+  // Pushed to the right: first the wall or the fixed disc is 0.3 ahead, then nothing within a width.
   for (const Complex centre : {Complex(2.2, 0.0), Complex(1.4, 0.0)}) {
     const bool beside = centre.real() > 2.0;
     Suspension wall = {body(0.6, 0.5, centre, 20.0)}, obstacle = {body(0.6, 0.5, 0.0, 20.0)};
@@ -113,7 +113,7 @@ TEST_CASE("beside the container or a fixed body an adaptive step is as short as 
       const double limit = stepper.geometric_step_limit(1.0);
       const StepOutcome outcome = stepper.step(1e-9, 1.0, {});
       REQUIRE(outcome.accepted);
-      // Along the axis of symmetry nothing turns: it is the width, or there is no limit.
+      // Along the axis of symmetry nothing turns: the limit is that of the width, or there is none.
       CHECK(std::abs(outcome.velocity[0].omega) < 1e-6);
       if (beside)
         CHECK(std::abs(limit * outcome.velocity[0].velocity.real() - 0.5) < 1e-12);

@@ -1,4 +1,4 @@
-// Suspensions that several tests share.
+// Suspensions for several tests.
 #pragma once
 
 #include <algorithm>
@@ -27,7 +27,7 @@ inline Suspension six_ellipses() {
   return bodies;
 }
 
-// Ellipses at gaps of at least `least`, packed as random drops into a square find room.
+// Ellipses at gaps of at least `least`, placed at random in a square where they fit.
 inline Suspension random_drop(std::mt19937_64& generator, int count, double side, double least) {
   Suspension bodies;
   while (static_cast<int>(bodies.size()) < count) {

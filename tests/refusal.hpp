@@ -1,4 +1,4 @@
-// What input is refused with.
+// The message with which input is refused.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// simulate in the background, as long as a test needs it.
+// Runs simulate in the background for as long as a test needs it.
 #pragma once
 
 #include <atomic>
@@ -38,7 +38,7 @@ class RunningProgram {
     return wait_until([] { return true; });
   }
 
-  // How it ends by a signal.
+  // Sends a signal and returns how the program ends.
   ProgramRun end_by(int signal, const std::function<bool()>& ready) {
     if (const int process = wait_until(ready)) kill(process, signal);
     thread_.join();

@@ -1,4 +1,4 @@
-// The key `accuracy`: errors of velocities against what was asked for, warnings of fixed nodes, and runs whose nodes change.
+// The key `accuracy`: errors of velocities against the requested ones, warnings of fixed nodes, runs whose nodes change.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,7 +20,7 @@ ResolvedSystem resolved(const Suspension& bodies, FlowKind flow, double accuracy
   return solve_to_accuracy({bodies, {flow}, {}, {}}, accuracy, {}, shapes, alone, resolution);
 }
 
-// Bispherical coordinates: how fast each of two free unit discs moves towards the other in u = (x, -y).
+// The speed of each of two free unit discs towards the other in u = (x, -y), by bipolar coordinates.
 double approach(double gap) {
   const double half = std::asinh(std::sqrt(0.25 * gap)), alpha = 2.0 * half;
   return 2.0 * std::pow(std::sinh(alpha), 3) / std::cosh(2.0 * alpha);
@@ -57,7 +57,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 }  // namespace
 
-// Against closed forms for discs, against an accuracy of 1e-11 for the others; or the round-off that is estimated.
+// Reference: closed forms for discs, an accuracy of 1e-11 for the others. The error may be the estimated round-off.
 TEST_CASE("velocities keep the accuracy at gaps of .1 to 1e-6, and the estimated error at 1e-8") {
   struct Kind {
     const char* name;
@@ -129,7 +129,7 @@ TEST_CASE("hexagons at gaps of 1e-4 and 1e-6 take at most 25 and 30 iterations a
   }
 }
 
-// The discs approach as g' = -2 approach(g): 64 nodes at equal steps are held against that at every step.
+// The discs approach as g' = -2 approach(g); 64 nodes at equal steps are compared with that at every step.
 TEST_CASE("64 fixed nodes warn in or before the first step in which the rate of the gap is off by 10 %") {
   for (const char* refine : {"none", "near"}) {
     CAPTURE(refine);

@@ -43,7 +43,7 @@ TEST_CASE("the limits on discs and ellipses converge spectrally, and both method
                       side == Side::interior ? "inside" : "outside", points, a.velocity, a.pressure, a.gradient,
                       b.velocity, b.pressure, b.gradient);
         table += line;
-        // Spectral: twice the nodes square the error, or nearly so, until round-off.
+        // Spectral: twice the nodes square the error, or nearly so, down to round-off.
         if (points > 16) CHECK(a.largest() < 10.0 * std::pow(previous, 1.7) + 1e-11);
         if (points == 64) CHECK(a.largest() < std::max(0.01 * previous, 1e-8));
         previous = a.largest();

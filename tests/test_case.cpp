@@ -62,14 +62,14 @@ std::string bodies_refusal(std::string_view text) {
     CHECK_MESSAGE(message_.find('\n') == std::string::npos, "one paragraph"); \
   } while (false)
 
-// What a line appended to a complete case is refused with, from the line number on.
+// The message that refuses a line appended to a complete case, from the line number on.
 #define CHECK_REFUSED(line, part) \
   CHECK_CONTAINS(case_refusal(complete + (line) + "\n"), concat("case.txt:7: ", part))
 
-// What an argument to a complete case is refused with.
+// The message that refuses an argument to a complete case.
 #define CHECK_ARGUMENT(argument, part) CHECK_CONTAINS(case_refusal(complete, {argument}), part)
 
-// What a bodies' file is refused with, from the line number on.
+// The message that refuses a bodies' file, from the line number on.
 #define CHECK_BODIES(text, part) CHECK_CONTAINS(bodies_refusal(text), concat("bodies.csv:", part))
 
 }  // namespace

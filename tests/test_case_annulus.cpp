@@ -28,7 +28,7 @@ void check_contains(const std::string& message, const std::string& part) {
   CHECK_MESSAGE(message.find('\n') == std::string::npos, "one paragraph");
 }
 
-// What an argument to a case is refused with.
+// The message that refuses an argument to a case.
 void check_refused(const std::string& text, const std::string& argument, const std::string& part) {
   check_contains(refusal([&] { read(text, {argument}); }), concat("argument '", argument, "': ", part));
 }
@@ -148,7 +148,7 @@ TEST_CASE("the suspension in an annulus has the inner wall as its last body and 
   REQUIRE(bodies.size() == 3);
   CHECK_FALSE(bodies[0].fixed);
   CHECK(bodies[0].points == 0);
-  CHECK(bodies[0].force == Complex(3.0, 0.0));  // no matter that it is not balanced
+  CHECK(bodies[0].force == Complex(3.0, 0.0));  // it need not be balanced
   CHECK(bodies[1].fixed);
   CHECK(bodies[1].points == 0);
   CHECK(bodies[2].fixed);

@@ -1,4 +1,4 @@
-// Runs that are interrupted and go on: the same bytes as if they never had been.
+// Runs that are interrupted and continued write the same bytes as uninterrupted ones.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ const std::string squeezed = "a,b,x,y,theta,force_x\n.5,.5,-.504,0,0,1\n.5,.5,.5
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// The files of a run that has ended: no other is there.
+// The files of a run that has ended; there are no others.
 std::map<std::string, std::string> files_of(const Workspace& here, const std::string& output) {
   return everything_in(here.path() / output);
 }
@@ -59,7 +59,7 @@ Course course(const Suspension& bodies, SimulationOptions options, const std::op
   return result;
 }
 
-// From each state, on paper and back, the run goes on to the same end.
+// From each state, written and read again, the run continues to the same end.
 void check_every_restart(const std::vector<std::string>& settings, const std::string& rows, const std::string& more) {
   const Workspace here(case_text("shear", 32, 0.1, 2.5, more), rows);
   fs::create_directory(here.path() / "out");
@@ -81,8 +81,8 @@ void check_every_restart(const std::vector<std::string>& settings, const std::st
   }
 }
 
-// Interrupts a run by each of the signals in turn, after random parts of the time it takes as a whole, until it
-// has gone on from `interruptions` checkpoints; then it may end. Its results are those of an undisturbed run.
+// Interrupts a run by each of the signals in turn, after random fractions of its total time, until it
+// has continued from `interruptions` checkpoints; then it may end. Its results are those of an undisturbed run.
 void check_interrupted(const Workspace& here, const std::vector<std::string>& signals, int interruptions,
                        const std::string& checkpoint_every) {
   const auto begin = std::chrono::steady_clock::now();
@@ -114,7 +114,7 @@ void check_interrupted(const Workspace& here, const std::vector<std::string>& si
   CHECK(tables_of(here, "out").size() == 2);
 }
 
-// A folder with a run that has been stopped on its way.
+// A folder with a run that was stopped before its end.
 struct Stopped : Workspace {
   explicit Stopped(const std::string& signal = "TERM", int status = 143);
 };
@@ -295,7 +295,7 @@ TEST_CASE("a run whose results do not fit its checkpoint starts again with a war
     const fs::path table = here.path() / "out" / name;
     for (const char* misfit : {"gone", "short", "other columns", "no row ends there"}) {
       CAPTURE(std::string(misfit));
-      // Killed, so that a checkpoint is there that is older than the tables.
+      // Killed, so that its checkpoint is older than the tables.
       for (double seconds = 0.1; !fs::exists(here.path() / "out/checkpoint"); seconds *= 1.5) {
         REQUIRE(seconds < 20.0);
         here.run_until(seconds, "KILL", {"case.txt", "checkpoint_every=1e-9"});

@@ -45,7 +45,7 @@ TEST_CASE("on circles the closed form agrees with the general close evaluation a
 
       const std::vector<Complex> series = CircleFlow(radius, side, density).velocity(targets);
       CHECK((u - ComplexVector::Map(series.data(), u.size())).cwiseAbs().maxCoeff() < 2e-12);
-      // Of any density, the Nyquist mode among it.
+      // For any density, with the Nyquist mode.
       ComplexVector rough = random_vectors(points, generator);
       const std::vector<Complex> roughly = CircleFlow(radius, side, rough).velocity(targets);
       const ComplexVector w = velocity(closed.velocity_rows(targets), rough);

@@ -25,7 +25,7 @@ Matrix right_hand_sides(int points, int columns) {
   return data;
 }
 
-// Bodies of which some are close to the walls, about as far as the walls' nodes are from each other.
+// Bodies, some of them as close to the walls as the spacing of the walls' nodes.
 Suspension bodies_beside_walls(int wall_points) {
   return between_cylinders({body_at({0.375, 0.375}, {9.3, 0.0}), body_at({0.375, 0.125}, {0.0, 5.5}, 0.2),
                             body_at({0.375, 0.125}, {-5.0, 6.0}, 1.0)},
@@ -54,7 +54,7 @@ TEST_CASE("a circle's own equations are solved in closed form as by the dense bl
         const double error = (x - y).cwiseAbs().maxCoeff() / y.cwiseAbs().maxCoeff();
         table += concat(name, "  ", points, "  ", radius, "  ", error, "\n");
         CHECK(error < 1e-8);
-        // More than the -2 that it is for most modes.
+        // More than the factor -2 of most modes.
         CHECK((x + 2.0 * data).cwiseAbs().maxCoeff() > 0.01 * x.cwiseAbs().maxCoeff());
       }
   MESSAGE(table);
@@ -97,6 +97,6 @@ TEST_CASE("where the walls are resolved the bodies' velocities do not depend on 
     errors.push_back(largest);
   }
   MESSAGE("64, 256, 1024 wall points: ", errors[0], ", ", errors[1], ", ", errors[2]);
-  CHECK(errors[0] > 1e-6);  // not resolved: the angle does reach the equations
+  CHECK(errors[0] > 1e-6);  // not resolved, so the equations do depend on the angle
   CHECK(errors[2] < 1e-8);
 }

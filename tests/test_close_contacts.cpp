@@ -43,7 +43,7 @@ Suspension tip_on_flank(double gap) {
 
 }  // namespace
 
-// Bispherical-coordinate solutions of two free discs in u = (x, -y) along their line of centres: speed of each.
+// Solutions in bipolar coordinates for two free discs in u = (x, -y) along their line of centres: speed of each.
 TEST_CASE("two discs in extension and shear: absolute errors below 1e-11 at gaps of 1e-2 to 1e-8, anywhere, with 128 nodes") {
   struct Row {
     double gap, approach;  // of each disc, towards the other
@@ -71,7 +71,7 @@ TEST_CASE("two discs, exact digits of N_0 = 26 and 38 nodes of a cluster: 1e-9 a
   CHECK(std::abs(s.velocity[1].omega - fine.velocity[1].omega) < 1e-9);
 }
 
-// Values of an independent dense solver, to all digits given; that of the second gap is also that of 2048 equal nodes.
+// Values of an independent dense solver, to all digits given; 2048 equal nodes also give that of the second gap.
 TEST_CASE("3:1 tip on flank in extension: rates of the gap to 1e-11 at gaps of 1e-2 to 1e-6 with 176 nodes") {
   struct Row {
     double gap, rate, error;

@@ -19,7 +19,7 @@ std::vector<PointFlow> values(const CloseFlow& flow, const std::vector<Complex>&
   return result;
 }
 
-// Against the direct sum over so many nodes that it is resolved, eight to the distance, at points beside nodes and
+// Compared with the direct sum over enough nodes, at least eight per distance, at points beside nodes and
 // between them.
 FlowErrors errors_at(const Boundary& boundary, Side side, int points, int upsampling, double distance) {
   const std::vector<Complex> z = points_beside(boundary(11 * points), side, distance, 11 * points / 13);

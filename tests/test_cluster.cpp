@@ -42,7 +42,7 @@ struct Crowd {
   }
 };
 
-// Everything of a constraint that can differ.
+// All members of a constraint that can differ.
 auto contents(const ContactConstraint& c) {
   const GapGradient& g = c.gradient;
   return std::tuple(c.a, c.b, c.region, c.value, c.tolerance, g.centre_a.real(), g.centre_a.imag(),
@@ -67,7 +67,7 @@ TEST_CASE("cluster: the forces of every cluster sum to zero and only one body of
     std::vector<Wrench> after = before;
     balance_clusters(contacts, after);
 
-    // Independent of union-find: spread the smallest label over the contacts until nothing changes.
+    // Without union-find: spreads the smallest label over the contacts until nothing changes.
     std::vector<int> label(bodies);
     for (int i = 0; i < bodies; ++i) label[i] = i;
     for (int round = 0; round < bodies; ++round)
@@ -129,7 +129,7 @@ TEST_CASE("cluster: a torque is not scaled by a ratio of forces that are zero up
     CHECK(chain[1].force == Complex(0.0, 0.0));
     CHECK(chain[1].torque == 0.7);
   }
-  // Next to no force before, one after: nothing to scale by.
+  // Almost no force before and a force after: there is no factor to scale by.
   for (const double rounding : {0.0, 1e-17}) {
     std::vector<Wrench> idle{{{-1.0, 0.0}, 0.1}, {{rounding, 0.0}, 0.7}, {{3.0, 0.0}, 0.2}};
     balance_clusters({{0, 1}, {1, 2}}, idle);
@@ -198,7 +198,7 @@ TEST_CASE("cluster: an obstacle bears what a cluster does not balance, and other
   CHECK(after[5].force == -after[6].force);
   CHECK_FALSE((same(after[5], before[5]) && same(after[6], before[6])));
 
-  // Without the obstacles they would not be spared.
+  // Without the obstacles these clusters would change.
   after = before;
   balance_clusters({{0, 1}, {1, 2}, {3, 4}}, after);
   CHECK_FALSE(same(after[1], before[1]));

@@ -1,4 +1,4 @@
-// The flow of a rigid ellipse with a force and a torque, against what defines it.
+// The flow of a rigid ellipse with a force and a torque, against its defining properties.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ Gradient gradient_of(const Flow& u, Complex z, double step) {
   return {along(1.0), along(imaginary_unit)};
 }
 
-// Force and torque about `centre` that what is inside a circle around it exerts on the fluid outside, by
+// Force and torque about `centre` of the inside of a circle around it on the fluid outside, by
 // the traction. The velocity's gradient alone gives the pressure: -p + i vorticity is analytic outside
 // and decays, so that the vorticity's Fourier modes determine it.
 Wrench traction_integral(const Flow& u, Complex centre, double radius) {
@@ -270,7 +270,7 @@ TEST_CASE("pressure and gradient are those of the velocity, and solve the Stokes
 TEST_CASE("the traction on any circle around the body, and on the body itself, adds up to force and torque") {
   for (const Shape& shape : shapes) {
     const Pose pose{{-2.0, 1.0}, 1.1};
-    // The normal points into the fluid outside, on which what is inside exerts minus the traction.
+    // The normal points into the fluid outside, on which the inside exerts minus the traction.
     const auto exerted = [&](int points, const auto& point, const auto& weighted_normal) {
       Wrench sum;
       for (int k = 0; k < points; ++k) {

@@ -192,7 +192,7 @@ TEST_CASE("bodies that pass through each other within a step are found, whatever
       REQUIRE(pairs_of(contacts) == Pairs{{0, 1}});
       CHECK(std::abs(contacts[0].value / (4.0 * distance) + 0.5) < 0.5);
       CHECK(dot(contacts[0].gradient.centre_b, contacts[0].force.centre_b) > 0.5);  // back
-      end[1].centre += Complex(0.0, 8.0);  // not far enough aside to meet the third body, past each other
+      end[1].centre += Complex(0.0, 8.0);  // past each other, but not far enough aside to meet the third body
       CHECK(collector.collect(end, {}).empty());
     }
 }
@@ -365,7 +365,7 @@ TEST_CASE("a contact problem that is given up says how far it came and between w
   CHECK_FALSE(stopped.solved);
   CHECK(stopped.failure.find("bodies 1 and 2") != std::string::npos);
 
-  // A mobility that pulls where it is pushed.
+  // A mobility that moves bodies against the force.
   const MobilityFunction adhesive = [](const std::vector<Wrench>& wrenches) {
     Response response = Bed::respond(wrenches);
     for (RigidVelocity& u : response.velocity) u.velocity = -u.velocity, u.omega = -u.omega;
@@ -379,7 +379,7 @@ TEST_CASE("a contact problem that is given up says how far it came and between w
 }
 
 TEST_CASE("without progress the contact problem is given up early only when progress is demanded") {
-  // A matrix from a mobility 20 times too large: each iteration takes back a twentieth of the violation.
+  // A matrix from a mobility 20 times too large: each iteration removes a twentieth of the violation.
   const Suspension start = {body(1, 1, 0.0), body(1, 1, 3.0)};
   const GapCollector collector(start, 0.5);
   const ConstraintFunction constraints = constraints_of(collector);

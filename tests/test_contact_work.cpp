@@ -1,4 +1,4 @@
-// Contact forces do work on the bodies; where they do not, the nodes are to blame and the step fails.
+// Contact forces do work on the bodies; if they do not, the nodes are too sparse and the step fails.
 #include <doctest/doctest.h>
 
 #include "contact_work.hpp"
@@ -21,7 +21,7 @@ TEST_CASE("the work of contact forces may be negative on one body but not on all
   CHECK(negative_work(contact, {{{2.0, 0.0}, 0.5}, {{2.0, 0.0}, 1.0}}, without).empty());
 }
 
-// Two discs driven together. The matrix is that of discs alone; what moves them gives way against the force.
+// Two discs driven together. The matrix is that of single discs; the discs themselves move against the force.
 TEST_CASE("contact forces that pull bodies against themselves end the contact problem, whatever the matrix") {
   const Suspension discs{body_at({0.5, 0.5}, {-0.6, 0.0}), body_at({0.5, 0.5}, {0.6, 0.0})};
   const Response contact_free{{{{1.0, 0.0}, 0.0}, {{-1.0, 0.0}, 0.0}}, ComplexVector::Zero(1)};
@@ -43,7 +43,7 @@ TEST_CASE("contact forces that pull bodies against themselves end the contact pr
     }
 }
 
-// The 6:1 ellipse of test_refinement that 32 nodes move towards the wall when it is pushed away, now in a run.
+// The 6:1 ellipse of test_refinement, which 32 nodes move towards the wall when it is pushed away, here in a run.
 TEST_CASE("a body along a wall that moves against its contact force ends the run with a message that names it") {
   const std::string text =
       "bodies = bodies.csv\ngeometry = annulus\ninner_radius = 5\nouter_radius = 10\nwall_points = 1024\ntime_step = .01\n"

@@ -77,7 +77,7 @@ TEST_CASE("the gap of an ellipse in a container is that of its densely sampled b
     const Gap g = gap(shape, pose, container);
     worst = std::max(worst, std::abs(g.value - sampled_gap(shape, pose, container)));
     outside += g.value < 0.0;
-    // The points are where they should be.
+    // The points are on the body and the wall.
     const Complex p = (g.point_a - pose.centre) * std::conj(pose.axis());
     CHECK(std::abs(std::hypot(p.real() / shape.a, p.imag() / shape.b) - 1.0) < 1e-13);
     CHECK(std::abs(std::abs(g.point_b - container.centre) / container.radius - 1.0) < 1e-14);
@@ -189,7 +189,7 @@ TEST_CASE("a push from the wall along the gap's own normal is the gap's gradient
 
 TEST_CASE("a body that starts and ends inside leaves the container on the way by no more than its rotation allows") {
   Random random{std::mt19937_64(4)};
-  double most = 0.0;  // of what the rotation allows
+  double most = 0.0;  // over the bound by the rotation
   int left = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const Shape shape = random.shape();
@@ -211,5 +211,5 @@ TEST_CASE("a body that starts and ends inside leaves the container on the way by
     most = std::max(most, (inside - smallest) / allowed);
   }
   CHECK(left > 50);
-  CHECK(most > 0.8);  // the bound is not a loose one
+  CHECK(most > 0.8);  // the bound is not loose
 }

@@ -221,7 +221,7 @@ TEST_CASE("a file is replaced as a whole or not at all") {
   CHECK(content(path) == std::string("new\0bytes\n", 10));
   CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
 
-  // A folder in the way cannot be replaced; nothing is left behind.
+  // A folder with the name of the file cannot be replaced; nothing is left behind.
   fs::create_directory(folder.path / "taken");
   std::ofstream(folder.path / "taken" / "file") << "x";
   CHECK_THROWS_WITH_AS(write_file_atomically(folder.path / "taken", "x"),

@@ -36,7 +36,7 @@ Problem random_problem(int targets, int sources, unsigned seed) {
   return p;
 }
 
-// One target, and the sum of the absolute values of its terms, which is what round-off is relative to.
+// One target, and the sum of the absolute values of its terms, to which round-off is relative.
 struct Sum {
   Complex value;
   double absolute = 0.0;

@@ -1,4 +1,4 @@
-// What the pages tell a reader to type works, and what they name is there.
+// The commands in the pages work, and everything that the pages name exists.
 #include <doctest/doctest.h>
 
 #include <regex>

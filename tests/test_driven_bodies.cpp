@@ -1,4 +1,4 @@
-// A container without an inner wall, and bodies that are driven at a given velocity.
+// A container without an inner wall, and bodies driven at a given velocity.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a checkpoint says of its program, and that it is on disk: seen from the calls of the operating system.
+// A checkpoint names its program and is on disk, as seen from the calls of the operating system.
 #include <doctest/doctest.h>
 
 #include "checkpoint.hpp"
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const std::string discs = "a,b,x,y,theta\n.5,.5,-1.3,.25,0\n.5,.5,0,0,0.1\n";
 
 #ifdef __linux__
-// Runs simulate with case.txt in a folder and returns its calls of fsync (f) and of rename (r), in order; nothing where
+// Runs simulate with case.txt in a folder and returns its calls of fsync (f) and of rename (r), in order; empty if
 // a process may not be traced.
 std::string calls(const fs::path& folder) {
   const std::string program = simulate_program().string();

@@ -1,4 +1,4 @@
-// The flow on a grid, and simulate between walls: torques in steps.csv and the flow on a grid.
+// The flow on a grid, and in runs between walls: torques in steps.csv and the flow on a grid.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -87,7 +87,7 @@ TEST_CASE("simulate writes the Couette flow on a grid and balanced wall torques,
   CHECK(content_of(here.path() / "out/steps.csv") == rows);
 }
 
-// With lagged densities the step is not the solution that would be found anew.
+// With lagged densities the flow of the step is not that of a new solution.
 TEST_CASE("the flow of a step has its own nodes and densities: far away it is that of the step's stresslets") {
   Suspension discs{{{0.5, 0.5}, {{-0.55, 0.05}, 0.0}, {}, {}}, {{0.5, 0.5}, {{0.55, -0.05}, 0.0}, {}, {}}};
   StepperOptions options;

@@ -1,4 +1,4 @@
-// Background flows beside shear and extension, and what a body does in them.
+// Background flows other than shear and extension, and the motion of a body in them.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -81,7 +81,7 @@ TEST_CASE("the flow past an ellipse in Poiseuille flow solves the Stokes equatio
   // Without the background's pressure the force would be -2 rate area.
   CHECK(std::abs(force) < 1e-9);
   CHECK(std::abs(torque) < 1e-9);
-  // Far away nothing is left of the body but its stresslet.
+  // Far away only the stresslet of the body remains.
   CHECK(std::abs(flow({0.0, 1e4}).pressure) < 1e-6);
   CHECK(flow({1e4, 0.0}).pressure == doctest::Approx(2.0 * rate * 1e4).epsilon(1e-8));
 }

@@ -217,7 +217,7 @@ TEST_CASE("the error stays below every tolerance, for all point sets, kinds of s
     CAPTURE(static_cast<int>(set));
     const Sources s = make_sources(set, 6000, 5);
     check_errors(s, {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12});
-    // Were these far below, time would be wasted.
+    // Errors far below the tolerance would waste time.
     const FlowFields exact = exact_fields(s, s.stresslets(), 6);
     CHECK(fmm_error(s, s.stresslets(), 1e-3, exact, 6) > 1e-6);
     CHECK(fmm_error(s, s.stresslets(), 1e-9, exact, 6) > 1e-13);

@@ -1,4 +1,4 @@
-// Expansions beside each other in one array: what one thread writes no other one reads.
+// Expansions side by side in one array: no thread reads what another one writes.
 #include <doctest/doctest.h>
 
 #include <algorithm>

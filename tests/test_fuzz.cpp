@@ -1,4 +1,4 @@
-// Mutated input is refused or read, and what fuzzing once found stays found. `make fuzz` tries far more of it.
+// Mutated input is refused or read, and defects that fuzzing once found stay fixed. `make fuzz` tries far more input.
 #include <doctest/doctest.h>
 
 #include "case.hpp"
@@ -19,7 +19,7 @@ TEST_CASE("2000 mutated inputs are refused with one line, or accepted finite and
   const FuzzReport report = fuzz_input(0, 2000, 7);
   CHECK(report.failure == "");
   CHECK(report.mutations == 2000);
-  // Neither is everything refused nor everything accepted.
+  // Some input is refused and some accepted.
   CHECK(report.accepted_suspensions > 100);
   CHECK(report.accepted_suspensions < report.accepted_cases);
   CHECK(report.accepted_cases < 2000);

@@ -37,7 +37,7 @@ struct Random {
   }
 };
 
-// |c_B - c_A| plus the circumradii: round-off is measured in units of it.
+// |c_B - c_A| plus the circumradii, the unit of round-off.
 double size_of(const Body& a, const Body& b) {
   return std::abs(b.pose.centre - a.pose.centre) + a.shape.circumradius() + b.shape.circumradius();
 }

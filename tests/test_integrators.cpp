@@ -1,5 +1,6 @@
-// Time integrators against the exact equation of an ellipse, the table of reversals and the limits of two discs that slide
-// past each other, found with steps refined to nine digits in the two-disc model of exact mobilities.
+// Time integrators against the exact equation of an ellipse, the table of reversals, and the limits for two discs that
+// slide past each other. The limits were found with steps refined to nine digits in the two-disc model with exact
+// mobilities.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -61,7 +62,7 @@ Motion move(const Suspension& start, const SimulationOptions& how) {
   return motion;
 }
 
-// Table 1's run and error: two discs in u = (2y, 0), which turns back at t = 10.
+// The run and error of Table 1: two discs in u = (2y, 0), which is reversed at t = 10.
 Motion there_and_back(SimulationOptions how, double& error) {
   how.reverse_at = 10.0;
   const Suspension start = {disc({-8.0, 0.5}), disc({0.0, 0.0})};
@@ -75,7 +76,8 @@ Motion there_and_back(SimulationOptions how, double& error) {
   return motion;
 }
 
-// How far two discs that touch slide past each other, with the separation 2.5 h, from the angle -.6 in a time of .6.
+// The distance by which two touching discs slide past each other, with the separation 2.5 h, from the angle -.6 in a time
+// of .6.
 Complex slide(IntegratorKind integrator, int steps) {
   SimulationOptions how = options(integrator, 0.6 / steps, 0.6);
   how.stepper.separation = 2.5 * spacing;
@@ -87,7 +89,7 @@ Complex slide(IntegratorKind integrator, int steps) {
   return motion.end[1].pose.centre - motion.end[0].pose.centre;
 }
 
-// A step from given bodies whose stages can be looked at.
+// A step from given bodies whose stages can be inspected.
 class OneStep : public StepStart {
  public:
   OneStep(Suspension bodies, const StepperOptions& options) : bodies_(std::move(bodies)), fluid_(options), contacts_(options) {}
@@ -304,7 +306,7 @@ TEST_CASE("stages do not overlap where the end would not show it") {
   CHECK(motion.smallest_gap > 0.0);
 }
 
-// The middle of an implicit step comes closer than its ends; when it would come much closer the step fails and says so.
+// At the middle of an implicit step the gap is smaller than at its ends; if it is much smaller, the step fails and says so.
 TEST_CASE("a midpoint step whose middle comes too close is refused") {
   SimulationOptions how = options(IntegratorKind::midpoint, 0.6, 0.6);
   how.stepper.separation = 0.02;

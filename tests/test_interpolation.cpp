@@ -61,18 +61,18 @@ Complex exact_velocity(const Modes& modes, const Shape& shape, Complex z) {
   return outside_ellipse(modes, A, B, (z + std::sqrt(z - focus) * std::sqrt(z + focus)) / (2.0 * A));
 }
 
-// Where a target stands: its distance along the normal from the point with parameter alpha.
+// The position of a target: its distance along the normal from the point with parameter alpha.
 struct NearTarget {
   double alpha, distance;
 };
 
-// The place so reached from the ellipse.
+// The point at this position of the ellipse.
 Complex beside(const Shape& shape, NearTarget t) {
   const Complex normal(shape.b * std::cos(t.alpha), shape.a * std::sin(t.alpha));
   return Complex(shape.a * std::cos(t.alpha), shape.b * std::sin(t.alpha)) + t.distance * normal / std::abs(normal);
 }
 
-// Random ones closer than `width`.
+// Random positions closer than `width`.
 std::vector<NearTarget> near_targets(double width, int count) {
   std::mt19937_64 generator(11);
   std::vector<NearTarget> targets;
@@ -104,7 +104,7 @@ Places distances(NearRule rule, const Shape& shape, double h, NearTarget t) {
   return place;
 }
 
-// What the scheme would give at a target if its sums were exact: interpolation along the curve from the limits at
+// The result of the scheme at a target if its sums were exact: interpolation along the curve from the limits at
 // the seven nodes around the foot, then across from that and the velocities at the distances of the rule.
 Complex interpolated_exact_values(const Modes& modes, const Shape& shape, const Curve& curve, NearRule rule, NearTarget t) {
   const double step = 2.0 * pi / curve.size(), first = std::round(t.alpha / step) - 3.0;
@@ -183,8 +183,8 @@ Curve three_lobed(int points) {
 
 }  // namespace
 
-// The sums themselves converge geometrically, the limits at the nodes of an ellipse like ((a - b)/(a + b))^N but for
-// the density's bandwidth: below 64 nodes they are not yet exact, though far better than the interpolation.
+// The sums themselves converge geometrically, the limits at the nodes of an ellipse like ((a - b)/(a + b))^N apart from
+// the density's bandwidth. Below 64 nodes they are not yet exact, though far better than the interpolation.
 TEST_CASE("near values are those of interpolating exact velocities, on a disc and a 3:1 ellipse") {
   for (const Shape& shape : {Shape{1.0, 1.0}, Shape{1.0, 1.0 / 3.0}}) {
     std::string table = "    N  largest error  not from interpolating  Cauchy\n";
@@ -213,7 +213,7 @@ TEST_CASE("near values from the target are those of exact velocities and of 0 be
   }
 }
 
-// The published digits of this case end there: those at N = 512 and 1024 differ by 4e-13 from what is computed here.
+// The published digits of this case end here: those at N = 512 and 1024 differ by 4e-13 from the values computed here.
 TEST_CASE("summed in powers of the distance from the centre, values from the target are rounded by about 4e-13") {
   constexpr double y = 1.0005;
   for (int points : {512, 1024}) {
@@ -398,7 +398,7 @@ TEST_CASE("pressure and gradient close to the curve have errors that fall with N
                     side == Side::interior ? "inside" : "outside", points, error.velocity, error.pressure,
                     error.gradient);
       table += line;
-      // The approach to seventh order is the slower, the sharper the tip.
+      // The sharper the tip, the slower the approach to seventh order.
       const double factor = aspect == 1.0 ? 8.0 : aspect == 2.0 ? 3.0 : 2.0;
       if (points > 32) {
         CHECK(error.pressure < previous.pressure / factor);

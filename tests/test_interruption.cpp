@@ -1,4 +1,4 @@
-// What ends a run before its end: signals, at any place, and checkpoints that cannot be written.
+// Causes of an early end of a run: signals, at any time, and checkpoints that cannot be written.
 #include <doctest/doctest.h>
 
 #include <unistd.h>
@@ -131,7 +131,7 @@ TEST_CASE("a second run in one process does not end by the signal of the first")
     while (!fs::exists(here.path() / "out/steps.csv")) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     kill(getpid(), SIGHUP);
   });
-  std::signal(SIGHUP, SIG_DFL);  // which is ignored where the tests run without a terminal
+  std::signal(SIGHUP, SIG_DFL);  // it is ignored where the tests run without a terminal
   int signal = 0;
   try {
     simulate_case(c);

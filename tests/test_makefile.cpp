@@ -1,4 +1,4 @@
-// What the makefiles do on machines that have less than this one, and what the tests print.
+// The makefiles on machines with less software than this one, and the output of the tests.
 #include <doctest/doctest.h>
 
 #include "program.hpp"

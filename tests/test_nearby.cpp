@@ -16,7 +16,7 @@ using namespace stokes;
 
 namespace {
 
-constexpr int nearby_iterations = 24;  // after which the stepper takes full columns
+constexpr int nearby_iterations = 24;  // after these the stepper uses full columns
 
 // Two ellipses close to each other and, if there is one, a third body.
 Suspension pair_and(const std::vector<Body>& third) {
@@ -43,7 +43,7 @@ Answers answers(const Suspension& bodies, double tolerance) {
   return {system.solve({}, parting(bodies)), system.solve_nearby(parting(bodies), tolerance)};
 }
 
-// How a suspension's steps with the mobility of nearby bodies differ from those with the full one.
+// Differences of a suspension's steps with the mobility of nearby bodies from those with the full one.
 struct Comparison {
   int steps = 0, contacts = 0, wall_contacts = 0, solves = 0, full_solves = 0, iterations = 0;
   int with_full_columns = 0;  // steps
@@ -53,7 +53,7 @@ struct Comparison {
   double multiplier = 0.0;    // of firm steps, over the largest of the step
 };
 
-// By how much the bodies would come too close without contact forces.
+// The violation of the separation without contact forces.
 double violation(const Suspension& bodies, StepperOptions options, double dt) {
   options.contact = ContactModel::none;
   Stepper stepper(bodies, options);
@@ -107,7 +107,7 @@ Comparison compare_steps(const Suspension& start, StepperOptions options, double
   return c;
 }
 
-// A step is accepted when its contacts are met to 1e-4 of the separation, so that the gaps of two accepted ones may
+// A step is accepted when its contacts satisfy the separation to 1e-4 of it. The gaps of two accepted steps can therefore
 // differ by twice that, and multipliers that undo a fifth of the separation by 1e-3.
 void check(const Comparison& c) {
   CHECK(c.gap <= 2e-4);
@@ -131,7 +131,7 @@ Suspension crowd_at_wall(double separation) {
   return between_cylinders(bodies);
 }
 
-// Discs in a row that touch but for the separation, pressed together from both ends.
+// Discs in a row at the separation from each other, pressed together from both ends.
 Suspension pressed_row(int count, double separation, double push) {
   Suspension row;
   for (int k = 0; k < count; ++k) row.push_back(body_at({0.5, 0.5}, (1.0 + separation) * k));
@@ -194,7 +194,7 @@ TEST_CASE("in an annulus, one body on its outer wall: the same steps, in at most
   CHECK(c.solves <= 3 * c.steps);
 }
 
-// Each disc of a row is moved by the forces on all others, of which the nearby mobility knows the next ones only.
+// The forces on all others move each disc of a row, but the nearby mobility includes only the next discs.
 TEST_CASE("where nearby mobilities do not lead to a solution the step is made with full ones") {
   StepperOptions options = accurate_steps(32, 0.01);
   options.stokes.gmres_tolerance = 1e-9;
@@ -277,7 +277,7 @@ TEST_CASE("answers to contact forces start from the nearest combination of known
   known.rates = taught.known.rates;
   CHECK(resolve_knowing().iterations == 1);
 
-  // A matrix that has lost its positive diagonal makes room for columns.
+  // A matrix without a positive diagonal is replaced by columns.
   known.rates = Matrix::Constant(1, 1, -2.0);
   const NcpResult anew = resolve_knowing();
   CHECK(anew.failure == "");

@@ -140,7 +140,7 @@ TEST_CASE("100 000 bodies, some of them large, are searched in less than two sec
   for (int i = 0; i < 5; ++i) circles.radius[1000 * i] = 20.0;
   const std::clock_t start = std::clock();
   CHECK(neighbours(circles, 0.05).size() > 50000);
-  // Measured 0.15; a look at all 5e9 pairs takes 10 or more.
+  // Measured 0.15; a test of all 5e9 pairs takes 10 or more.
   CHECK(static_cast<double>(std::clock() - start) < 2.0 * CLOCKS_PER_SEC);
 }
 

@@ -1,4 +1,4 @@
-// What the program says to a new user's first mistakes, and to values that are possible but hardly meant.
+// Messages about a new user's first mistakes, and about values that are possible but probably not intended.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ void check_refused(const std::string& text, const std::string& bodies, const std
   CHECK(here.everything() == before);
 }
 
-// What a run that ends well says on stderr.
+// The messages on stderr of a run that succeeds.
 std::string said(const std::string& text, const std::string& bodies, const std::vector<std::string>& arguments = {}) {
   const Workspace here(text, bodies);
   std::vector<std::string> all = {"case.txt"};
@@ -148,7 +148,7 @@ TEST_CASE("bodies far from the origin are as right as near it, or refused") {
   }
   check_refused(at_rest, header + ".5,.5,1e10,0,0\n.5,.5,10000000002.5,0,0\n", {}, {"bodies.csv", "body 0", "1e+10"});
   check_refused(at_rest, header + ".5,.5,0,0,1e9\n", {}, {"body 0 has the angle 1e+09"});
-  // One that is carried away ends the run when it is too far.
+  // A body that is carried away ends the run when it is too far.
   const Workspace here(case_text("extension", 16, 1, 40), header + ".5,.5,1,0,0\n");
   const ProgramRun run = here.run({"case.txt", "rate=9"});
   CAPTURE(run.errors);

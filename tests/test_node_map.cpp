@@ -1,4 +1,4 @@
-// Nodes drawn to places of a curve, and the offsets from those places.
+// Nodes concentrated at places of a curve, and the offsets from those places.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ TEST_CASE("the map of nodes runs around once, its derivatives are those of its v
     double worst = 0.0, slope = 0.0, bend = 0.0;
     for (int k = 0; k < nodes.size(); ++k) {
       const MappedNode& node = mapped[k];
-      // Of s the position is known to round-off, and alpha where s changes fast.
+      // The round-off is that of s, or of alpha where s changes fast.
       worst = std::max(worst, std::abs(std::remainder(map.position(node.alpha) - 2.0 * pi * k / nodes.size(), 2.0 * pi)) *
                                   std::min(1.0, node.first));
       const NodeCluster& c = nodes.clusters[node.cluster];
@@ -47,7 +47,7 @@ TEST_CASE("the map of nodes runs around once, its derivatives are those of its v
   }
 }
 
-// Newton's steps from the nearest cluster may leap over another one.
+// Newton's steps from the nearest cluster may jump over another one.
 TEST_CASE("the map inverts itself for any clusters, also where one stands on the way from another") {
   std::mt19937_64 generator(1);
   const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };

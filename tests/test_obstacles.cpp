@@ -267,7 +267,7 @@ TEST_CASE("obstacles: crowds stirred in a container end separated, complementary
       CAPTURE(result.failure);
       REQUIRE(result.solved);
       const Suspension end = at(start, result.poses);
-      // Polygons stand back from their curves by up to 0.3 % of the size.
+      // Polygons are inside their curves by up to 0.3 % of the size.
       CHECK(smallest_gap(end).gap >= separation * (contact == ContactModel::gap ? 1.0 - 1e-4 : 0.8));
       std::vector<Wrench> wrenches(start.size());
       for (const ActiveContact& c : result.contacts) {
@@ -305,7 +305,7 @@ TEST_CASE("obstacles: a body that is jammed between obstacles fails clearly, in 
   const Suspension annulus = in_container({fixed(1, 1, 0.0), mobile(1, 1, {0.0, 2.05})}, {0.0, 3.1});
   const Suspension three = {mobile(1, 1, 0.01), fixed(1, 1, 2.0), fixed(1, 1, std::polar(2.0, 2.1)),
                             fixed(1, 1, std::polar(2.0, -2.1))};
-  // Slightly off the line, the way out is so slim a wedge that only absurd forces would find it.
+  // Slightly off the line, the way out is so narrow a wedge that only extremely large forces would find it.
   int wedges = 0;
   for (const Suspension* shape : {&tight, &no_margin, &annulus, &three}) {
     for (const double aside : {0.0, 1e-12, 1e-8, 1e-5}) {

@@ -1,4 +1,4 @@
-// The folder of a run: one run at a time, no results lost to another case, and a record of what was run.
+// The folder of a run: one run at a time, no results replaced by those of another case, and a record of the run.
 #include <doctest/doctest.h>
 
 #include <unistd.h>

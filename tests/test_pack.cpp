@@ -1,4 +1,4 @@
-// Random suspensions of the program pack: gaps, fractions, the same bytes.
+// Random suspensions of the program pack: gaps, fractions, reproducible bytes.
 #include <doctest/doctest.h>
 
 #include <algorithm>

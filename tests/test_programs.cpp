@@ -1,4 +1,4 @@
-// Every program explains itself: those that `make test` builds, and all others that are there.
+// Every program has a help text: those that `make test` builds, and all others that exist.
 #include <doctest/doctest.h>
 
 #include "program.hpp"

@@ -1,4 +1,4 @@
-// The numbers of the report: as LaTeX, and as the document asks for them.
+// The numbers of the report: as LaTeX, and as the document requests them.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -93,7 +93,7 @@ TEST_CASE("the order parameter is 1 along the circles, -1 across, 0 in between, 
   check(ellipses_on_circle(7, 5.0 * pi), -1.0);
   check(ellipses_on_circle(7, pi / 4), 0.0);
   check(ellipses_on_circle(4, 0.2), std::cos(2.0 * (0.2 - pi / 2)));
-  // A mean over bodies, of the free ones only.
+  // A mean over the free bodies only.
   Suspension mixed = ellipses_on_circle(4, pi / 2);
   mixed[0].pose.angle += pi / 2;
   check(mixed, 0.5);
@@ -161,7 +161,7 @@ TEST_CASE("two discs pressed together bear the force between them, and their con
     const StepOutcome outcome = one_step(bodies, accurate_steps(64, separation), 0.01, 0.0);  // cylinders at rest
     REQUIRE(outcome.accepted);
     REQUIRE(outcome.contacts.size() == 1);
-    // The contact balances the forces but for what its tolerance lets it move.
+    // The contact balances the forces, except for the motion within its tolerance.
     CHECK(std::abs(outcome.contacts[0].multiplier / push - 1.0) < 1e-2);
     const BodyStress contacts = particle_stress(bodies, outcome).contacts;
     const double size = outcome.contacts[0].multiplier * apart / annulus_area;

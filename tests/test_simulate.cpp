@@ -1,4 +1,4 @@
-// The program from outside: what it writes, how it counts time, and motions that are known.
+// The program from outside: its output, its counting of time, and known motions.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 using Numbers = std::vector<double>;
 
-// Of the numbers that are not nan.
+// Over the numbers that are not nan.
 double largest(const Numbers& values) {
   double result = 0.0;
   for (double v : values) result = std::fmax(result, std::abs(v));
@@ -41,8 +41,8 @@ double largest_difference(const Numbers& u, const Numbers& v) {
   return result;
 }
 
-// Times at which the steps of a disc in shear start, the length of each, and in how many the flow has the
-// other sign; with the number of changes of sign on the way.
+// Times at which the steps of a disc in shear start, the length of each, the number of steps in which the flow has the
+// other sign, and the number of changes of sign.
 struct Counted {
   Numbers time, dt;
   int reversed = 0, changes = 0;
@@ -294,7 +294,7 @@ TEST_CASE("discs shot at each other with a huge time step do not change sides") 
     REQUIRE(x0.size() == 4);
     for (int k : {1, 2, 3}) CHECK(std::abs(x1[k] - x0[k] - 1.1) < 1e-5);
   }
-  // No separation asked for: a run that ends early, because 32 points do not resolve it, changes none either.
+  // Without a given separation: a run that ends early, because 32 points do not resolve it, changes none either.
   here.run({"case.txt", "overwrite=yes", "min_separation_length=none"});
   const Numbers x0 = here.results().body_column(0, "x"), x1 = here.results().body_column(1, "x");
   for (std::size_t k = 0; k < x0.size(); ++k) CHECK(x1[k] - x0[k] > 1.0);
@@ -413,6 +413,6 @@ TEST_CASE("--help columns explains every column that a run writes, and so does t
       CHECK(end > meaning + 5);
       CHECK(contains(page, concat("| `", name, "` | ", help.output.substr(meaning, end - meaning), " |")));
     }
-  // The inner wall is no body of the table.
+  // The inner wall is not in the table of bodies.
   CHECK(results.trajectory.numbers("body") == Numbers{0, 0});
 }

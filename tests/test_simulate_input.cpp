@@ -1,4 +1,4 @@
-// The program's answers to input it cannot use and to computations that cannot go on.
+// The program's answers to input that it cannot use and to computations that cannot continue.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -67,7 +67,7 @@ void check_refused_value(const std::string& key, const std::string& value) {
   check_refused_case(text, {concat("case.txt:", found), key, value});
 }
 
-// Everything up to the failure is there, each row once: steps 0 to `last`, of which the last was not made.
+// Everything up to the failure is written, each row once: steps 0 to `last`, of which the last was not made.
 void check_written_up_to(const Workspace& here, int last, int bodies) {
   const Results results = here.results();
   const std::vector<double> step = results.step_column("step"), dt = results.step_column("dt");
@@ -139,7 +139,7 @@ TEST_CASE("a key given twice in the file is bad input, one replaced by an argume
   check_refused_line("flow = extension", {"flow", "twice", "case.txt:2"});
   const Workspace here = workspace();
   CHECK(here.run({"case.txt", "flow=extension"}).status == 0);
-  CHECK(here.results().body_column(0, "uy").front() < -0.1);  // shear would give next to nothing
+  CHECK(here.results().body_column(0, "uy").front() < -0.1);  // shear would give almost nothing
   check_refused(workspace(), {"case.txt", "rate=1", "rate=2"}, {"rate=2", "twice"});
 }
 

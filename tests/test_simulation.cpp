@@ -1,4 +1,4 @@
-// Runs through the library: time counting, reversal, adaptive steps, and what holds after every step.
+// Runs by the library: time counting, reversal, adaptive steps, and conditions after every step.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -29,7 +29,7 @@ SimulationOptions options(FlowKind flow, double rate, int points, double time_st
   return result;
 }
 
-// What the observer saw, the final configuration last.
+// The states that the observer saw, the final configuration last.
 struct Run {
   std::vector<long> step;
   std::vector<double> time, min_gap;
@@ -78,7 +78,7 @@ bool same_bits(const StepOutcome& u, const StepOutcome& v) {
   return same;
 }
 
-// Two discs that a strain presses together, closer than the separation asked for.
+// Two discs that a strain presses together, closer than the given separation.
 const Suspension pressed = {body(0.5, 0.5, {0.0, -0.52}, 0.3), body(0.5, 0.5, {0.01, 0.52}, -1.0)};
 StepperOptions pressing() {
   StepperOptions result;
@@ -88,7 +88,7 @@ StepperOptions pressing() {
   return result;
 }
 
-// Too little work to share: threads that wait for each other would cost more than they save.
+// Too little work to share: waiting threads would cost more than they save.
 struct OneThread {
   int before = thread_count();
   OneThread() { set_thread_count(1); }

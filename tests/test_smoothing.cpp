@@ -1,4 +1,4 @@
-// The multiscale local polynomial transform that Figure 10 is smoothed with.
+// The multiscale local polynomial transform that smooths Figure 10.
 #include <doctest/doctest.h>
 
 #include <cmath>

@@ -13,7 +13,7 @@ const std::string discs = "a,b,x,y,theta\n.5,.3,-1.6,.4,0\n.5,.5,0,0,0.1\n";
 
 bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-// Down the rows of both bodies from a time on.
+// Over the rows of both bodies from a time on.
 std::vector<double> from_time(const Table& trajectory, double time, const char* column) {
   const std::vector<double> times = trajectory.numbers("time"), all = trajectory.numbers(column);
   std::vector<double> values;

@@ -14,7 +14,7 @@ using namespace stokes;
 
 namespace {
 
-// The bodies at the start, where they are to go, and the minimum separation.
+// The bodies at the start, their trial poses, and the minimum separation.
 struct Step {
   Suspension start;
   std::vector<Pose> trial;
@@ -70,8 +70,8 @@ double apart(const Polygon& a, const Polygon& b) {
 
 enum class Verdict { overlap_at_start, meet, pass_through, miss, borderline };
 
-// Samples tau so densely that the distance, which changes by at most the longest ways of the vertices of both
-// bodies, seen from the first, cannot have dropped from the margin to zero in between.
+// Samples tau so densely that the distance cannot have dropped from the margin to zero in between. It changes by at most
+// the longest paths of the vertices of both bodies, relative to the first.
 Verdict judge(const Step& step, int vertices, double margin) {
   std::vector<Polygon> from, to;
   const Complex drift = step.trial[0].centre - step.start[0].pose.centre;
@@ -97,7 +97,7 @@ Verdict judge(const Step& step, int vertices, double margin) {
   }
 }
 
-// Contact by V against the judge.
+// Contact by V against judge().
 struct Tally {
   int cases = 0, met = 0, missed = 0, borderline = 0, passed = 0, wrong = 0;
   void add(const Step& step, int vertices, double margin) {
@@ -210,7 +210,7 @@ TEST_CASE("stiv: V and its derivative converge to the closed form of two discs h
 }
 
 TEST_CASE("stiv: without rotation `full` is the derivative of V, and `frozen` is several times smaller") {
-  // Some 30 % of the way is left after the hit head on and obliquely, next to nothing in a shallow contact.
+  // About 30 % of the way is left after a head-on or oblique hit, almost none in a shallow contact.
   using Row = std::tuple<Complex, double, double>;
   for (const auto& [end, low, high] :
        {Row{1.8, 0.25, 0.35}, Row{{1.8, 0.3}, 0.25, 0.35}, Row{2.01, 0.0, 0.05}}) {
@@ -270,7 +270,7 @@ TEST_CASE("stiv: the two forces of a region are opposite, also when one of the b
 }
 
 TEST_CASE("stiv: mirror-symmetric discs repel exactly along the line of their centres") {
-  // Vertex meets vertex, on the way or inside from the start: either adjacent edge could lend its normal.
+  // Vertex meets vertex, on the way or inside from the start: the normal could be that of either adjacent edge.
   for (int k = 0; k < 32; ++k) {
     const Complex axis = std::polar(1.0, k * pi / 16.0);
     for (const auto& [start, end] : {std::pair(2.3, 2.02 - 1e-9), std::pair(2.3, 1.9), std::pair(2.01, 2.0)}) {

@@ -23,7 +23,7 @@ struct Random {
   }
 };
 
-// One body, where it is to go, and the container around it.
+// One body, its trial pose, and the container around it.
 struct Step {
   Body body;
   Pose trial;

@@ -30,7 +30,7 @@ class Threads {
   int before_ = thread_count();
 };
 
-// How many threads make the calls of a loop, each of which takes a millisecond.
+// The number of threads that make the calls of a loop, each of which takes a millisecond.
 std::size_t threads_used(long work) {
   std::mutex mutex;
   std::set<std::thread::id> seen;
@@ -84,7 +84,8 @@ TEST_CASE("threads that wait for the next loop sleep") {
     parallel_for(4, [](long) {});
     sleep_milliseconds(1);
   }
-  // Of all threads together. Three that waited actively would take a good part of a millisecond each, .3 s in all.
+  // Time of all threads together. Three threads that waited actively would take a good part of a millisecond each, .3 s in
+  // all.
   CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 0.1);
 }
 

@@ -1,12 +1,12 @@
-// Two discs in shear as the experiments of section 4.1 run them.
+// Two discs in shear, as in the experiments of section 4.1.
 #include <doctest/doctest.h>
 
 #include "two_discs.hpp"
 
 using namespace stokes;
 
-// Figure 2 with the densities of the other disc taken from the step before; an independent two-disc simulation gives
-// .165, .188 and .236 in three digits. The exact flow returns the disc to its height, so all of it is the scheme.
+// Figure 2 with the densities of the other disc taken from the step before. An independent two-disc simulation gives
+// .165, .188 and .236 in three digits. The exact flow returns the disc to its height, so all of it is due to the scheme.
 TEST_CASE("locally implicit stepping displaces a disc in shear as an independent simulation says") {
   struct Known {
     double separation_over_h, displacement;

@@ -1,4 +1,4 @@
-// What `verify` says of right, wrong and broken results, and the rows of reference_data that it reads.
+// The verdict of `verify` on right, wrong and broken results, and the rows of reference_data that it reads.
 #include <doctest/doctest.h>
 
 #include "program.hpp"
@@ -40,7 +40,7 @@ class VerdictFolder {
   ProgramRun verify(const std::vector<std::string>& arguments = {}) const {
     return run_program(simulate_program().parent_path() / "verify", arguments, folder_.path());
   }
-  // Of the latest run.
+  // The verdict on a row in the latest run.
   std::string verdict(int row = 0) const {
     const Table table = read_csv(path("results/verdict.csv"));
     return table.text(row, table.column("verdict"));

@@ -1,4 +1,4 @@
-// The pictures of a run: every number of a file, and which files there are.
+// The pictures of a run: every number of a file, and the set of files.
 #include <doctest/doctest.h>
 
 #include <bit>

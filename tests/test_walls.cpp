@@ -58,7 +58,7 @@ TEST_CASE("Couette flow between cylinders: velocity, pressure, stress and torque
     CHECK(e.pressure < 1e-10);
     CHECK(e.stress < 1e-9);
     CHECK(std::abs(s.reaction[0].torque - 4.0 * pi * B) < 1e-10 * std::abs(4.0 * pi * B));
-    // The container's by the traction on it, and by what balances the other torques.
+    // The container's torque by the traction on it, and as the balance of the other torques.
     const std::vector<Complex> forces = node_forces(system, 1, s.density, driving, {});
     double torque = 0.0;
     for (std::size_t k = 0; k < forces.size(); ++k)

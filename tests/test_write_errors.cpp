@@ -21,8 +21,8 @@ std::string lines(const std::string& text, std::size_t count) {
   return text.substr(0, end);
 }
 
-// What a run writes whose largest file may have so many blocks of 512 bytes is the beginning of what an undisturbed one
-// writes, whole steps, the same in both tables; and the same command without the limit completes it to the byte.
+// A run whose files may not exceed so many blocks of 512 bytes writes the beginning of the output of an undisturbed run:
+// whole steps, the same in both tables. The same command without the limit completes it to the byte.
 void check_limit(int blocks, const std::string& settings, std::size_t bodies) {
   const std::string text = case_text("shear", 16, 0.1, 4, concat("min_separation = 2\n", settings));
   const Workspace whole(text, passing_discs), here(text, passing_discs);
