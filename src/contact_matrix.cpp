@@ -8,7 +8,8 @@ namespace stokes {
 namespace {
 
 // An iteration costs one solve, columns of the full mobility one for each contact: of about a hundred in dense suspensions.
-constexpr int nearby_iterations = 24;
+constexpr int nearby_iterations = 48;
+constexpr int first_iterations = 16;  // with what earlier steps taught: most take fewer, and a fresh start rarely takes more
 
 using Ends = std::pair<int, int>;
 
@@ -113,22 +114,23 @@ class NearMatrix : public ContactMatrix {
  public:
   explicit NearMatrix(ContactModel contact) : learns_(contact == ContactModel::gap) {}
 
-  // A failure may be due to what was learnt in other configurations or to columns of nearby bodies: columns anew come
-  // first, whole ones last.
+  // What was learnt in other configurations may mislead: a second attempt begins without it. A learned matrix is symmetric,
+  // which that of a pair that turns far in the step is not: where an LCP has no solution, the third attempt learns nothing.
+  // Columns of nearby bodies may be too rough for a long chain: the last attempt takes whole ones.
   NcpResult resolve(Configuration& at, const ContactSolver& solve, const NcpOptions& options) override {
-    NcpOptions at_first = options;
-    at_first.max_iterations = std::min(options.max_iterations, nearby_iterations);
-    NcpResult result = solve(nearby(at, latest_), at_first);
-    if (!result.solved && !latest_.known.contacts.empty()) {
-      latest_ = {};
+    const bool knows = !latest_.known.contacts.empty();
+    NcpOptions cheap = options;
+    NcpResult result;
+    const auto attempt = [&](const ContactResponseFactory& response, int iterations) {
       at.effort().ncp_iterations += result.iterations;
-      result = solve(nearby(at, latest_), at_first);
-    }
-    if (!result.solved) {
-      at.effort().ncp_iterations += result.iterations;
-      const ContactHistories none;
-      result = solve(full_columns(at, none), options);
-    }
+      cheap.max_iterations = std::min(options.max_iterations, iterations);
+      result = solve(response, cheap);
+    };
+    attempt(nearby(at, latest_), knows ? first_iterations : nearby_iterations);
+    if (!result.solved && knows) attempt(nearby(at, latest_ = {}), nearby_iterations);
+    if (!result.solved && learns_ && result.iterations < cheap.max_iterations)
+      attempt(solved(column(at), full_response(at)), nearby_iterations);
+    if (!result.solved) attempt(full_columns(at, ContactHistories{}), options.max_iterations);
     if (result.solved) learn(at, result);
     return result;
   }
@@ -154,12 +156,15 @@ class NearMatrix : public ContactMatrix {
     static Memory restored(StateReader& reader);
   };
 
+  static MobilityFunction column(Configuration& at) {
+    return [&at](const auto& wrenches) { return at.respond_nearby(wrenches); };
+  }
+
   ContactResponseFactory nearby(Configuration& at, const Memory& memory) const {
-    const MobilityFunction column = [&at](const auto& wrenches) { return at.respond_nearby(wrenches); };
-    if (!learns_) return solved(column, full_response(at));  // the forces of interference volumes are others at every iterate
+    if (!learns_) return solved(column(at), full_response(at));  // forces of interference volumes change with every iterate
     std::vector<ComplexVector> answers;
     for (const Density& answer : memory.answers) answers.push_back(answer.on(at.nodes()));
-    return learned(column, full_response(at), memory.known, std::move(answers));
+    return learned(column(at), full_response(at), memory.known, std::move(answers));
   }
 
   void learn(const Configuration& at, NcpResult& result) {

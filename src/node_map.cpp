@@ -101,19 +101,21 @@ double NodeMap::second_derivative(std::size_t k, double t) const {
   return second / total_;
 }
 
-// The inverse, by Newton's method for sigma in t = w sinh(sigma); around the cluster s is nearly linear in sigma. Another
-// cluster on the way makes s steep there, so that Newton's steps may oscillate. They are therefore kept between bounds
-// that become narrower, and a step that does not halve the error is followed by a bisection.
-double NodeMap::distance_from_cluster(std::size_t k, double s) const {
+// The inverse, by Halley's method for sigma in t = w sinh(sigma); around the cluster s is nearly linear in sigma. Another
+// cluster on the way makes s steep there, so that steps may oscillate. They are therefore kept between bounds that become
+// narrower, and a step that does not halve the error is followed by a bisection.
+double NodeMap::distance_from_cluster(std::size_t k, double s, double guess) const {
   const double width = kernels_[k].width, sign = s < 0.0 ? -1.0 : 1.0;
-  double low = 0.0, high = std::asinh(2.0 * pi / width), sigma = std::abs(s) / (2.0 * pi) * high;
+  double low = 0.0, high = std::asinh(2.0 * pi / width), sigma = sign * std::asinh(guess / width);
+  if (!(sigma > low && sigma < high)) sigma = std::abs(s) / (2.0 * pi) * high;
   double before = 4.0 * pi;
   for (int iteration = 0; iteration < 100; ++iteration) {
-    const double t = sign * width * std::sinh(sigma);
+    const double sinh = width * std::sinh(sigma), cosh = std::hypot(width, sinh), t = sign * sinh;
     const double excess = sign * (s - from_cluster(k, t));
-    const double step = excess / (first_derivative(k, t) * width * std::cosh(sigma));
+    const double first = first_derivative(k, t), bend = sign * second_derivative(k, t) * cosh / first + sinh / cosh;
+    const double newton = excess / (first * cosh), step = newton / std::max(0.5, 1.0 + 0.5 * newton * bend);
     const double next = sigma + step;
-    if (std::abs(step) <= 1e-9 * (1.0 + sigma)) return sign * width * std::sinh(next);  // the error is its square
+    if (std::abs(step) <= 1e-7 * (1.0 + sigma)) return sign * width * std::sinh(next);  // the error is its cube
     (excess > 0.0 ? low : high) = sigma;
     sigma = next > low && next < high && std::abs(excess) < 0.5 * before ? next : 0.5 * (low + high);
     before = std::abs(excess);
@@ -123,6 +125,7 @@ double NodeMap::distance_from_cluster(std::size_t k, double s) const {
 
 std::vector<MappedNode> NodeMap::at_equal_steps(int count) const {
   std::vector<MappedNode> nodes(count);
+  double expected = 0.0;  // alpha of the next node
   for (int j = 0; j < count; ++j) {
     const double s = 2.0 * pi * j / count;
     if (kernels_.empty()) {
@@ -134,10 +137,13 @@ std::vector<MappedNode> NodeMap::at_equal_steps(int count) const {
     for (std::size_t k = 0; k < kernels_.size(); ++k)
       if (const double from = std::remainder(s - kernels_[k].position, 2.0 * pi); std::abs(from) < std::abs(way))
         way = from, nearest = k;
-    const double t = distance_from_cluster(nearest, way), alpha = kernels_[nearest].alpha + t;
+    const double guess = std::remainder(expected - kernels_[nearest].alpha, 2.0 * pi);
+    const double t = distance_from_cluster(nearest, way, guess), alpha = kernels_[nearest].alpha + t;
     const double first = first_derivative(nearest, t), second = second_derivative(nearest, t);
     nodes[j] = {alpha - 2.0 * pi * std::floor(alpha / (2.0 * pi)), 1.0 / first, -second / (first * first * first),
                 static_cast<int>(nearest), t};
+    const double ahead = 2.0 * pi / count;
+    expected = alpha + ahead * (nodes[j].first + 0.5 * ahead * nodes[j].second);
   }
   return nodes;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <eigen3/Eigen/Eigenvalues>
 #include <eigen3/Eigen/LU>
 #include <tuple>
 
@@ -24,38 +23,32 @@ std::vector<int> nodes_beside(const PlacedShape& body, const PlacedShape& wall) 
   return nodes;
 }
 
-// The interaction of two boundaries, C = P Q^T up to singular values (flow over the density that makes it) below
-// `negligible`. Q (or P, where C has more columns than rows) has the singular vectors: at least one, even if it is zero.
-// They come from C^T C = L L^T by a Cholesky factorisation with pivoting that ends early.
+// C = P Q^T up to a Frobenius norm of `negligible`, with at least one column: a QR factorisation of C with column pivoting
+// that ends early. The columns of P are orthonormal.
 struct Coupling {
   Eigen::MatrixXf P, Q;
 };
 
 Coupling coupling(const Matrix& C, double negligible) {
-  if (C.cols() > C.rows()) {
-    Coupling transposed = coupling(C.transpose(), negligible);
-    return {std::move(transposed.Q), std::move(transposed.P)};
-  }
-  Matrix gram = Matrix::Zero(C.cols(), C.cols());
-  gram.selfadjointView<Eigen::Lower>().rankUpdate(C.transpose());
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  Matrix L(C.cols(), C.cols());
-  Vector left = gram.diagonal();
-  Eigen::Index k = 0, pivot = 0;
-  for (; k < C.cols() && left.sum() > negligible * negligible; ++k) {
+  constexpr float cancelled = 1e-3f;  // squares of norms that differences have made so much smaller are summed anew
+  Eigen::MatrixXf rest = C.cast<float>();
+  const Eigen::Index most = std::min(C.rows(), C.cols());
+  Eigen::MatrixXf P = Eigen::MatrixXf::Zero(C.rows(), most), Q = Eigen::MatrixXf::Zero(C.cols(), most);
+  Eigen::VectorXf left = rest.colwise().squaredNorm(), summed = left;
+  Eigen::Index rank = 0, pivot = 0;
+  for (; rank < most && left.sum() > negligible * negligible; ++rank) {
     left.maxCoeff(&pivot);
-    L.col(k) = gram.col(pivot);
-    if (k > 0) L.col(k).noalias() -= L.leftCols(k) * L.row(pivot).head(k).transpose();
-    L.col(k) /= std::sqrt(left[pivot]);
-    left -= L.col(k).cwiseAbs2();
+    P.col(rank) = rest.col(pivot).normalized();
+    Q.col(rank).noalias() = rest.transpose() * P.col(rank);
+    rest.noalias() -= P.col(rank) * Q.col(rank).transpose();
+    left -= Q.col(rank).cwiseAbs2();
+    for (Eigen::Index k = 0; k < C.cols(); ++k)
+      if (left[k] < cancelled * summed[k]) left[k] = summed[k] = rest.col(k).squaredNorm();
   }
-  if (k == 0) return {Eigen::MatrixXf::Zero(C.rows(), 1), Eigen::MatrixXf::Zero(C.cols(), 1)};
-  const Eigen::SelfAdjointEigenSolver<Matrix> squares(L.leftCols(k).transpose() * L.leftCols(k));
-  const Eigen::Index rank = std::max<Eigen::Index>(1, (squares.eigenvalues().array() > negligible * negligible).count());
-  const Vector inverses = squares.eigenvalues().tail(rank).cwiseSqrt().cwiseInverse();
-  Eigen::MatrixXf Q = (L.leftCols(k) * (squares.eigenvectors().rightCols(rank) * inverses.asDiagonal())).cast<float>();
-  return {C.cast<float>() * Q, std::move(Q)};
+  rank = std::max<Eigen::Index>(rank, 1);
+  return {P.leftCols(rank), Q.leftCols(rank)};
 }
+
 
 // Groups connected by relative gaps below `tight`, the closest first, within two limits: 6000 unknowns for a group and 2 GB
 // for the factors of all groups. Pairs between groups that the limits separate become groups of their own. Members
@@ -152,10 +145,10 @@ Preconditioner::Pair Preconditioner::prepared(std::pair<int, int> members, doubl
     p.B = j.shape->solve_own(P_j);
   p.Q_i = std::move(Q_i);
   p.Q_j = std::move(Q_j);
-  const Eigen::MatrixXf back = (p.Q_i.transpose() * p.B) * (p.Q_j.transpose() * p.A);
-  const auto identity = Eigen::MatrixXf::Identity(back.rows(), back.rows());
-  const Eigen::PartialPivLU<Eigen::MatrixXf> transposed((identity - back).transpose());
-  p.A = transposed.solve(p.A.transpose()).transpose().eval();
+  const Eigen::MatrixXf there = p.Q_j.transpose() * p.A, back = p.Q_i.transpose() * p.B * there;
+  const auto identity = Matrix::Identity(back.rows(), back.rows());
+  const Matrix inverse = Eigen::PartialPivLU<Matrix>(identity - back.cast<double>()).solve(identity);
+  p.A = (p.A * inverse.cast<float>()).eval();
   return p;
 }
 

@@ -29,11 +29,10 @@ class Preconditioner {
   using BlockFunction =
       std::function<Matrix(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns)>;
 
-  // `pairs`: the close pairs, for PreconditionerKind::pair. Singular values of their interaction below `negligible` are
-  // left out. Pairs below a relative gap of 1e-3 are joined to groups, the closest first, of up to 8 boundaries and 6000
+  // `pairs`: the close pairs, for PreconditionerKind::pair. Their interaction is compressed up to a Frobenius norm of
+  // `negligible`. Pairs below a relative gap of 1e-3 are joined to groups, the closest first, of up to 8 boundaries and 6000
   // unknowns, 2 GB for all groups, each with a dense factorisation. Only those nodes of a large circle take part that are
-  // beside the other member. Cost per pair O(N_i^2 N_j + r N_j^2), where N_i is the smaller number of nodes and r the
-  // rank of the interaction. There is no second term if j is a circle.
+  // beside the other member. Cost per pair O(r N^2), where r is the rank of the interaction.
   Preconditioner(PreconditionerKind kind, const std::vector<PlacedShape>& boundaries,
                  const std::vector<ClosePair>& pairs, double negligible, const BlockFunction& block);
 

@@ -20,7 +20,7 @@ constexpr double close_pair = 0.35;
 
 // Singular values of their interaction below this are left out. Larger ones would cost iterations, first for symmetric
 // arrangements of bodies, and the sooner the tighter the tolerance.
-double pair_negligible(double gmres_tolerance) { return std::clamp(1e5 * gmres_tolerance, 1e-5, 1e-3); }
+double pair_negligible(double gmres_tolerance) { return std::clamp(1e3 * gmres_tolerance, 1e-6, 3e-4); }
 
 }  // namespace
 
