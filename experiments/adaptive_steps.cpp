@@ -24,7 +24,8 @@ void run_case(const std::string& name, const Results& results) {
   parameters.reverse_at = 10.0;
   const TwoDiscRun run = complete_two_discs(parameters);
   double smallest_step = parameters.time_step;
-  for (std::size_t k = 0; k + 1 < run.time.size(); ++k) smallest_step = std::min(smallest_step, run.time[k + 1] - run.time[k]);
+  for (std::size_t k = 0; k + 1 < run.time.size(); ++k)
+    smallest_step = std::min(smallest_step, run.time[k + 1] - run.time[k]);
   results.write(name, {{"time_step", parameters.time_step},
                        {"accepted", static_cast<double>(run.steps)},
                        {"rejected", static_cast<double>(run.rejected)},

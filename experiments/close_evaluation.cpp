@@ -38,11 +38,12 @@ void run_case(const std::string& name, const Results& results) {
     const auto interpolation = [&](NearRule rule) {
       return error(InterpolationEvaluation(curve, Side::exterior, rule).velocity_rows({{0.0, near}}), near);
     };
-    const auto trapezoid = [&](double y) { return error(trapezoid_rows(curve, Side::exterior, std::vector<Complex>{{0.0, y}}), y); };
+    const auto trapezoid = [&](double y) {
+      return error(trapezoid_rows(curve, Side::exterior, std::vector<Complex>{{0.0, y}}), y);
+    };
     const CloseEvaluation cauchy(curve, Side::exterior, 2);
-    table.push_back({static_cast<double>(n), interpolation(NearRule::from_target),
-                     interpolation(NearRule::from_boundary), error(cauchy.velocity_rows(std::vector<Complex>{{0.0, near}}), near),
-                     trapezoid(1.01), trapezoid(1.1)});
+    table.push_back({static_cast<double>(n), interpolation(NearRule::from_target), interpolation(NearRule::from_boundary),
+                     error(cauchy.velocity_rows(std::vector<Complex>{{0.0, near}}), near), trapezoid(1.01), trapezoid(1.1)});
     for (std::size_t k = 1; k < header.size(); ++k) row.push_back({concat(header[k], "_", n), table.back()[k]});
   }
   results.write(name, row);

@@ -28,7 +28,8 @@ std::vector<Variant> variants() {
       all.push_back({concat("gap_", coupling_name, "_", matrix_name), parameters});
       parameters.contact = ContactModel::stiv;
       for (int vertices : {32, 128})
-        for (const auto& [gradient, gradient_name] : {std::pair(StivGradient::full, "whole"), std::pair(StivGradient::frozen, "frozen")}) {
+        for (const auto& [gradient, gradient_name] :
+             {std::pair(StivGradient::full, "whole"), std::pair(StivGradient::frozen, "frozen")}) {
           parameters.stiv_vertices = vertices;
           parameters.stiv_gradient = gradient;
           all.push_back({concat("stiv", vertices, "_", gradient_name, "_", coupling_name, "_", matrix_name), parameters});
@@ -68,7 +69,8 @@ void run_case(const std::string& name, const Results& results) {
     }
     const std::size_t n = row.size();
     row.push_back({"lowest_above_middle", row[n - 3].second > row[n - 2].second ? 1.0 : 0.0});
-    row.push_back({"lowest_path_crosses", row[n - 3].second > row[n - 2].second && row[n - 3].second > row[n - 1].second ? 1.0 : 0.0});
+    row.push_back(
+        {"lowest_path_crosses", row[n - 3].second > row[n - 2].second && row[n - 3].second > row[n - 1].second ? 1.0 : 0.0});
     row.push_back({"largest_ncp_iterations", static_cast<double>(largest_ncp)});
     row.push_back({"completed", static_cast<double>(completed)});
     row.push_back({"runs", static_cast<double>(runs)});

@@ -103,7 +103,8 @@ void summarise(const CouetteCase& chosen, const RunSummary& run, const Results& 
 
 void run(const std::string& name, const Results& results) {
   const std::vector<CouetteCase> cases = all_cases();
-  const CouetteCase& chosen = *std::find_if(cases.begin(), cases.end(), [&](const CouetteCase& c) { return c.name() == name; });
+  const CouetteCase& chosen =
+      *std::find_if(cases.begin(), cases.end(), [&](const CouetteCase& c) { return c.name() == name; });
   const RunSummary summary = simulate_case(write_case(name, couette_case(chosen), chosen.bodies(), results), name);
   summarise(chosen, summary, results);
 }

@@ -163,7 +163,8 @@ inline int run_experiment(const Experiment& experiment, int argc, char** argv) {
     if (!task.starts_with("case=")) throw InputError(usage);
     const std::string name = task.substr(5);
     if (std::find(experiment.cases.begin(), experiment.cases.end(), name) == experiment.cases.end())
-      throw InputError(concat("no case ", quote(name), "; ", suggestion(name, experiment.cases), "`list` prints their names"));
+      throw InputError(
+          concat("no case ", quote(name), "; ", suggestion(name, experiment.cases), "`list` prints their names"));
     set_thread_count(threads);
     experiment.run(name, Results(root, experiment.name, settings, command_line({argv, argv + argc})));
     return 0;

@@ -12,7 +12,8 @@ constexpr double shear_rate = 4.0;
 // Jeffery's orbit from the angle `start` to the flow: lambda tan(theta) turns like an angle that falls at the rate
 // gamma lambda / (lambda^2 + 1).
 double angle_at(double start, double time, double lambda) {
-  const double phase = std::atan2(lambda * std::sin(start), std::cos(start)) - shear_rate * time * lambda / (lambda * lambda + 1.0);
+  const double phase =
+      std::atan2(lambda * std::sin(start), std::cos(start)) - shear_rate * time * lambda / (lambda * lambda + 1.0);
   return std::atan2(std::sin(phase), lambda * std::cos(phase));
 }
 
@@ -29,7 +30,8 @@ void run_single_body(const std::string&, const Results& results) {
   for (int k = 0; k <= 400; ++k) {
     const double revolutions = 0.005 * k;
     rows.push_back({revolutions});
-    for (const double lambda : {3.0, 6.0}) rows.back().push_back(single_body_order(revolutions * couette_revolution, lambda));
+    for (const double lambda : {3.0, 6.0})
+      rows.back().push_back(single_body_order(revolutions * couette_revolution, lambda));
   }
   results.write("single_body", {"revolutions", "lambda3", "lambda6"}, rows);
   for (const double lambda : {3.0, 6.0}) {

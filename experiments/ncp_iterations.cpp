@@ -49,9 +49,10 @@ void run_case(const std::string& name, const Results& results) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return run_experiment({"ncp_iterations",
-                         {"head_on_full", "head_on_self", "shear_2h_full", "shear_2h_self", "shear_3h_full", "shear_3h_self"},
-                         run_case,
-                         [](const Results&) {}},
-                        argc, argv);
+  return run_experiment(
+      {"ncp_iterations",
+       {"head_on_full", "head_on_self", "shear_2h_full", "shear_2h_self", "shear_3h_full", "shear_3h_self"},
+       run_case,
+       [](const Results&) {}},
+      argc, argv);
 }

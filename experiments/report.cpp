@@ -126,10 +126,13 @@ std::string couette_table(Inputs& inputs, const std::string& name, bool order_pa
     const double lambda = number("lambda");
     const auto digits = [&](const char* column) { return tex_number(number(column), "3f"); };
     const bool others = number("seeds") > 0.0;
-    std::vector<std::string> cells = {
-        concat(number("phi"), "\\,\\%"), format_number(lambda), tex_number(number("published"), "4f"), tex_number(number("mean"), "4f"),
-        others ? digits("mean_of_seeds") : "not run", others ? concat(digits("minimum"), " to ", digits("maximum")) : "",
-        format_number(number("seeds"))};
+    std::vector<std::string> cells = {concat(number("phi"), "\\,\\%"),
+                                      format_number(lambda),
+                                      tex_number(number("published"), "4f"),
+                                      tex_number(number("mean"), "4f"),
+                                      others ? digits("mean_of_seeds") : "not run",
+                                      others ? concat(digits("minimum"), " to ", digits("maximum")) : "",
+                                      format_number(number("seeds"))};
     if (order_parameter) cells.push_back(tex_number((lambda - 1.0) / (lambda + 1.0), "3f"));
     table += row_of(cells);
   }

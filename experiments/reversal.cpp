@@ -70,12 +70,16 @@ void collect(const Results& results) {
   for (std::size_t s = 0; s < schemes.size(); ++s) {
     if (!results.has(schemes[s].name)) return;
     const auto add = [&](const Limit& limit, const std::string& how, double step, double tolerance) {
-      const auto value = [&](const char* what) { return results.quantity(schemes[s].name, concat(what, "_", limit.separation, "h_", how)); };
-      rows.push_back({static_cast<double>(s), *parse_number(limit.separation), step, tolerance, value("solves"), value("off_limit")});
+      const auto value = [&](const char* what) {
+        return results.quantity(schemes[s].name, concat(what, "_", limit.separation, "h_", how));
+      };
+      rows.push_back(
+          {static_cast<double>(s), *parse_number(limit.separation), step, tolerance, value("solves"), value("off_limit")});
     };
     for (const Limit& limit : limits) {
       for (const char* step : schemes[s].steps) add(limit, concat("dt", step), *parse_number(step), 0.0);
-      for (const char* tolerance : schemes[s].tolerances) add(limit, concat("tolerance", tolerance), 0.0, *parse_number(tolerance));
+      for (const char* tolerance : schemes[s].tolerances)
+        add(limit, concat("tolerance", tolerance), 0.0, *parse_number(tolerance));
     }
   }
   results.write("table", {"scheme", "separation_over_h", "time_step", "tolerance", "solves", "off_limit"}, rows);

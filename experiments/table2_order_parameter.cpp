@@ -4,6 +4,7 @@
 
 int main(int argc, char** argv) {
   using namespace stokes;
-  return run_experiment({"table2_order_parameter", {}, {}, [](const Results& results) { collect_table(results, "order_parameter", false); }},
-                        argc, argv);
+  return run_experiment(
+      {"table2_order_parameter", {}, {}, [](const Results& results) { collect_table(results, "order_parameter", false); }},
+      argc, argv);
 }

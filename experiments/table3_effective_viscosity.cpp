@@ -4,6 +4,9 @@
 
 int main(int argc, char** argv) {
   using namespace stokes;
-  return run_experiment({"table3_effective_viscosity", {}, {}, [](const Results& results) { collect_table(results, "effective_viscosity", true); }},
+  return run_experiment({"table3_effective_viscosity",
+                         {},
+                         {},
+                         [](const Results& results) { collect_table(results, "effective_viscosity", true); }},
                         argc, argv);
 }

@@ -66,14 +66,15 @@ void continue_from(const Suspension& start, const TaylorGreen& parameters, const
       const TaylorGreenStep step = describe({steps, steps * parameters.time_step, before, gap, &outcome});
       if (steps++ == 0) first_fastest = step.fastest;
       fastest = std::max(fastest, step.fastest);
-      rows.push_back({step.time, step.gap_over_h, static_cast<double>(step.contacts), static_cast<double>(step.ncp_iterations),
-                      step.fastest, step.largest_multiplier});
+      rows.push_back({step.time, step.gap_over_h, static_cast<double>(step.contacts),
+                      static_cast<double>(step.ncp_iterations), step.fastest, step.largest_multiplier});
       gap = smallest_gap(stepper.bodies()).gap;
       if (gap < 0.0) failure = concat("bodies overlap by ", -gap);
     } catch (const NumericalError& error) {
       failure = error.what();
     }
-  results.write(name + "_steps", {"time", "gap_over_h", "contacts", "ncp_iterations", "fastest", "largest_multiplier"}, rows);
+  results.write(name + "_steps", {"time", "gap_over_h", "contacts", "ncp_iterations", "fastest", "largest_multiplier"},
+                rows);
   results.write(name,
                 {{"completed", failure.empty() ? 1.0 : 0.0},
                  {"steps", static_cast<double>(steps)},
@@ -105,8 +106,8 @@ struct Solve {
 };
 
 StokesSystem system_of(const Suspension& bodies, const Solve& solve, ShapeCache& shapes) {
-  const std::vector<Discretisation> nodes = solve.refine == Refine::near ? refined_nodes(bodies, solve.points, near_tolerance)
-                                                                         : equal_nodes(bodies, solve.points);
+  const std::vector<Discretisation> nodes =
+      solve.refine == Refine::near ? refined_nodes(bodies, solve.points, near_tolerance) : equal_nodes(bodies, solve.points);
   return {bodies, nodes, shapes, {.gmres_tolerance = solve.tolerance, .preconditioner = solve.preconditioner}};
 }
 
@@ -171,7 +172,8 @@ void run_extrapolated(const std::string& name, const Results& results) {
       mean_over_steps(run, [](const TaylorGreenStep& step) { return step.background_iterations; });
   Mean per_column;
   for (const TaylorGreenStep& step : run.steps)
-    if (step.contacts > 0) per_column.add(static_cast<double>(step.gmres_iterations - step.background_iterations) / step.contacts);
+    if (step.contacts > 0)
+      per_column.add(static_cast<double>(step.gmres_iterations - step.background_iterations) / step.contacts);
   results.write(name, {{"completed", run.failure.empty() ? 1.0 : 0.0},
                        {"end_time", run.steps.back().time},
                        {"background_iterations", background},
@@ -240,13 +242,15 @@ void run_free(const std::string& name, const Results& results) {
 // --- all ------------------------------------------------------------------------------------------------
 
 std::vector<std::string> cases() {
-  std::vector<std::string> names = {"global_full_dt0.01", "global_self_dt0.01", "local_start_dt0.025", "local_start_dt0.0025"};
+  std::vector<std::string> names = {"global_full_dt0.01", "global_self_dt0.01", "local_start_dt0.025",
+                                    "local_start_dt0.0025"};
   for (const char* time_step : {"1e-2", "1e-4", "1e-6", "1e-8"}) names.push_back(concat("local_contact_dt", time_step));
   for (const char* points : {"points32", "points64", "points32_near"})
     for (const char* time_step : {"0.025", "0.01", "0.0025"}) {
       const std::string all = points;
       const std::size_t end = all.find('_');
-      names.push_back(concat("free_", all.substr(0, end), "_dt", time_step, end == std::string::npos ? "" : all.substr(end)));
+      names.push_back(
+          concat("free_", all.substr(0, end), "_dt", time_step, end == std::string::npos ? "" : all.substr(end)));
     }
   for (const auto& [kind, ignored] : preconditioners)
     for (const char* tolerance : {"1e-6", "1e-8"}) names.push_back(concat("extrapolated_", kind, "_", tolerance));

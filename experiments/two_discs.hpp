@@ -106,7 +106,8 @@ inline TwoDiscRun run_two_discs(const TwoDiscs& parameters) {
     run.worst_force_balance = std::max({run.worst_force_balance, std::abs(force), std::abs(torque)});
   };
   try {
-    const RunSummary summary = simulate({{disc, {parameters.first, 0.0}, {}, 0.0}, {disc, {parameters.second, 0.0}, {}, 0.0}}, options, observe);
+    const RunSummary summary =
+        simulate({{disc, {parameters.first, 0.0}, {}, 0.0}, {disc, {parameters.second, 0.0}, {}, 0.0}}, options, observe);
     run.steps = summary.steps;
     run.rejected = summary.rejected;
     run.factorisations = summary.factorisations;

@@ -102,8 +102,8 @@ void bench_iteration(int side, int points) {
   constexpr int iterations = 20;
   const Vector spectrum = Vector::LinSpaced(2 * nodes, 1.0, 1e6);
   const double orthogonalisation = median_seconds([&] {
-    gmres([&](const Vector& v, Vector& w) { w = spectrum.cwiseProduct(v); }, [](const Vector& v, Vector& w) { w = v; }, in, {},
-          {.tolerance = 1e-15, .max_iterations = iterations});
+    gmres([&](const Vector& v, Vector& w) { w = spectrum.cwiseProduct(v); }, [](const Vector& v, Vector& w) { w = v; }, in,
+          {}, {.tolerance = 1e-15, .max_iterations = iterations});
   });
   report("iteration_multipole_sum", nodes, sum, "seconds");
   report("iteration_rest_of_operator", nodes, whole - sum, "seconds");

@@ -154,10 +154,11 @@ CaseKey in_annulus(CaseKey key) {
 
 CaseKey between_walls(CaseKey key) {
   key.help = "in an annulus or disc: " + key.help;
-  return where({"geometry", [](const Case& c) { return c.geometry != Geometry::unbounded; },
-                "belongs to an annulus or disc, but the geometry is unbounded; write geometry = annulus or disc, or leave it "
-                "out."},
-               std::move(key));
+  return where(
+      {"geometry", [](const Case& c) { return c.geometry != Geometry::unbounded; },
+       "belongs to an annulus or disc, but the geometry is unbounded; write geometry = annulus or disc, or leave it "
+       "out."},
+      std::move(key));
 }
 
 CaseKey in_unbounded(CaseKey key) {
@@ -243,8 +244,8 @@ const std::vector<CaseKey>& case_keys() {
       in_annulus(optional("inner_angular_velocity", &Case::inner_angular_velocity, "of the inner wall, 1/time")),
       in_annulus(optional("injection_rate", &Case::injection_rate, "through both walls, outwards, area/time")),
       where({"flow", [](const Case& c) { return c.flow != FlowKind::none; }, "does nothing with flow = none; leave it out."},
-            in_unbounded(optional("rate", &Case::rate,
-                                  "of the flow, 1/time, of poiseuille 1/(length time); may be negative"))),
+            in_unbounded(
+                optional("rate", &Case::rate, "of the flow, 1/time, of poiseuille 1/(length time); may be negative"))),
       where({"flow", [](const Case& c) { return c.flow == FlowKind::linear; },
              "does nothing without flow = linear; leave it out."},
             in_unbounded(optional("gradient", &Case::gradient,
@@ -254,48 +255,51 @@ const std::vector<CaseKey>& case_keys() {
             in_unbounded(optional("sample_area", &Case::sample_area, "none",
                                   "area that the bodies stand for, such as that of their box: makes bulk_stress_11, "
                                   "bulk_stress_12 and effective_viscosity of steps.csv"))),
-      optional("accuracy", &Case::accuracy, "none",
-               "of the bodies' velocities, in units of the rate and size of what drives them: chooses the nodes of bodies and "
-               "walls and the tolerance of the solver at every step; 1e-4 without points_per_body"),
+      optional(
+          "accuracy", &Case::accuracy, "none",
+          "of the bodies' velocities, in units of the rate and size of what drives them: chooses the nodes of bodies and "
+          "walls and the tolerance of the solver at every step; 1e-4 without points_per_body"),
       optional("points_per_body", &Case::points_per_body, "nodes on each body, even, at least 8; 0: chosen by accuracy"),
-      optional("reverse_at", &Case::reverse_at, "none", "time from which the flow and the walls' velocities are reversed; forces on bodies are not"),
+      optional("reverse_at", &Case::reverse_at, "none",
+               "time from which the flow and the walls' velocities are reversed; forces on bodies are not"),
       with_contact(optional("min_separation", &Case::min_separation,
                             "in units of h = longest perimeter of a body / points_per_body")),
-      with_contact(optional("min_separation_length", &Case::min_separation_length, "none",
-                            "length, instead of min_separation")),
+      with_contact(
+          optional("min_separation_length", &Case::min_separation_length, "none", "length, instead of min_separation")),
       optional("contact", &Case::contact, "model that keeps bodies apart"),
       optional("coupling", &Case::coupling, "local: densities of the other bodies are those of the step before"),
       with_contact(optional("lcp_matrix", &Case::lcp_matrix, "mobility in the contact problem's matrix")),
       with_stiv(optional("stiv_vertices", &Case::stiv_vertices,
                          "of each polygon with contact = stiv, 8 to 65536; 0: 4 points_per_body")),
-      with_stiv(optional("stiv_gradient", &Case::stiv_gradient,
-                         "of the interference volume; frozen holds the hit time fixed")),
+      with_stiv(
+          optional("stiv_gradient", &Case::stiv_gradient, "of the interference volume; frozen holds the hit time fixed")),
       optional("near_singular", &Case::near_singular, "evaluation close to a boundary"),
       optional("gmres_tolerance", &Case::gmres_tolerance, "relative true residual, between 0 and 1"),
       optional("refine", &Case::refine, "near: more nodes where bodies are too close for points_per_body"),
       optional("summation", &Case::summation,
                "of the flows of all nodes; auto: direct for few of them; fmm to a tenth of gmres_tolerance, 1e-12 at best"),
-      optional("integrator", &Case::integrator,
-               "of the time steps: euler, first order, the paper's; ab2, second order at the same price; rk3, third order, three "
-               "times the price; midpoint, implicit: without contact a reversed flow takes the bodies back exactly"),
+      optional(
+          "integrator", &Case::integrator,
+          "of the time steps: euler, first order, the paper's; ab2, second order at the same price; rk3, third order, three "
+          "times the price; midpoint, implicit: without contact a reversed flow takes the bodies back exactly"),
       optional("adaptive", &Case::adaptive, "reject and halve time steps that fail"),
       where({"integrator", [](const Case& c) { return c.integrator == IntegratorKind::rk3; },
              "needs integrator = rk3, whose error is estimated; write it, or leave the tolerance out."},
-            optional("tolerance", &Case::tolerance, "none",
-                     "of the local error of a step, in largest semi-axes and radians: chooses the steps, of which time_step is "
-                     "the first and largest")),
+            optional(
+                "tolerance", &Case::tolerance, "none",
+                "of the local error of a step, in largest semi-axes and radians: chooses the steps, of which time_step is "
+                "the first and largest")),
       optional("output_every", &Case::output_every, "steps between rows of trajectory.csv"),
       optional("fields_at", &Case::fields_at,
                "increasing times; fields_TIME.csv holds the flow of the first state then or after"),
-      where({"fields_at", [](const Case& c) { return !c.fields_at.empty(); },
-             "does nothing without fields_at; leave it out."},
-            optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid")),
+      where(
+          {"fields_at", [](const Case& c) { return !c.fields_at.empty(); }, "does nothing without fields_at; leave it out."},
+          optional("field_points", &Case::field_points, "of the flow written out, on each side of its grid")),
       optional("overwrite", &Case::overwrite, "yes: replace the results of another run in the output folder"),
       optional("vtk", &Case::vtk, "OUTPUT/vtk/step_NUMBER.vtk for ParaView at every output_every-th step and the end"),
       optional("checkpoint_every", &Case::checkpoint_every, "seconds between checkpoints; 0: none at intervals"),
       optional("threads", &Case::threads, "all", concat("at most ", most_threads)),
-      where({"adaptive", [](const Case& c) { return !c.adaptive; },
-             "does nothing with adaptive = yes; leave it out."},
+      where({"adaptive", [](const Case& c) { return !c.adaptive; }, "does nothing with adaptive = yes; leave it out."},
             optional("time_counting", &Case::time_counting, "exact: the last step ends at end_time")),
   };
   return table;

@@ -128,7 +128,8 @@ void check_integrator(const Case& c, const Limit& limit) {
   const double largest = solver_part * *c.tolerance * (1.0 + 1e-12);
   if (c.accuracy)
     limit(*c.accuracy <= largest, limit.given.contains("accuracy") ? "accuracy" : "tolerance",
-          concat("must leave a tenth of tolerance = ", *c.tolerance, " to the solutions; try accuracy = ", solver_part * *c.tolerance, "."));
+          concat("must leave a tenth of tolerance = ", *c.tolerance,
+                 " to the solutions; try accuracy = ", solver_part * *c.tolerance, "."));
   else
     limit(c.gmres_tolerance <= largest, limit.given.contains("gmres_tolerance") ? "gmres_tolerance" : "tolerance",
           concat("must leave a tenth of tolerance = ", *c.tolerance, " to the solutions; try gmres_tolerance = ",

@@ -4,15 +4,6 @@ namespace stokes {
 
 namespace {
 
-// With Re >= 0. Without the care of std::sqrt for numbers near the ends of the range.
-Complex square_root(Complex p) {
-  const double modulus = std::sqrt(std::norm(p)), larger = std::sqrt(0.5 * (modulus + std::abs(p.real())));
-  if (larger == 0.0) return 0.0;
-  const double smaller = 0.5 * std::abs(p.imag()) / larger;
-  const double re = p.real() >= 0.0 ? larger : smaller, im = p.real() >= 0.0 ? smaller : larger;
-  return {re, std::copysign(im, p.imag())};
-}
-
 // z = A w + B/w with A = (a+b)/2, B = (a-b)/2, |w| >= 1 outside, and s = A w - B/w = sqrt(z^2 - 4AB), 2 sqrt(AB) the
 // distance of the foci from the centre.
 struct EllipsePoint {
@@ -20,11 +11,23 @@ struct EllipsePoint {
 
   EllipsePoint(double A, Complex focus, Complex z_) : z(z_) {
     // Of the two roots, the one with |w| >= 1 has Re(s/z) > 0 everywhere outside the body.
-    s = square_root((z - focus) * (z + focus));
+    s = std::sqrt((z - focus) * (z + focus));
     if (dot(s, z) < 0.0) s = -s;
     w = (z + s) / (2.0 * A);
   }
 };
+
+// The same s, from its square p. Without the care of std::sqrt for numbers near the ends of the range.
+ComplexPack outer_root(ComplexPack p, ComplexPack z) {
+  const Pack modulus = sqrt(p.re * p.re + p.im * p.im), larger = sqrt(0.5 * (modulus + absolute(p.re)));
+  const Pack smaller = 0.5 * absolute(p.im) / larger;
+  const auto right = p.re >= 0.0;
+  const Pack re = right ? larger : smaller, im = with_sign(right ? smaller : larger, sign_bits(p.im));
+  const PackBits flip = sign_bits(re * z.re + im * z.im);
+  return {with_sign(re, flip), with_sign(im, flip)};
+}
+
+ComplexPack broadcast(Complex value) { return {stokes::broadcast(value.real()), stokes::broadcast(value.imag())}; }
 
 }  // namespace
 
@@ -37,17 +40,24 @@ CompletionFlow::CompletionFlow(const Shape& shape, const Pose& pose, const Wrenc
 //   force F:  u = (1/4 pi) ( -ln|A w| F + F/2 + (conj(F)/2) (z/conj(s) - conj(m)) ),  m = (A^2+B^2)/(A w s)
 //   torque L: phi = i Om B/w, psi = i Om A/w + i Om B (A/w + B w)/(A w^2 - B), Om = L/(4 pi (A^2+B^2)),
 //             u = phi - z conj(phi') - conj(psi),  A w^2 - B = w s
-Complex CompletionFlow::velocity(Complex x) const {
-  const auto [z, s, w] = EllipsePoint(A_, focus_, std::conj(axis_) * (x - centre_));
-  const Complex by_w = reciprocal(w), by_s = reciprocal(s), both = by_w * by_s;
-  const double logarithm = 0.5 * std::log(A_ * A_ * std::norm(w)) - log_unit_;
-  Complex u = force_ * (0.5 - logarithm) +
-              0.5 * std::conj(force_) * (z * std::conj(by_s) - (A_ * A_ + B_ * B_) / A_ * std::conj(both));
+ComplexPack CompletionFlow::velocity(ComplexPack x) const {
+  const ComplexPack force = broadcast(force_), torque = broadcast(torque_), axis = broadcast(axis_);
+  const ComplexPack z = conj(axis) * (x - broadcast(centre_)), focus = broadcast(focus_);
+  const ComplexPack s = outer_root((z - focus) * (z + focus), z), w = 0.5 / A_ * (z + s);
+  const ComplexPack by_w = inverse(w), by_s = inverse(s), both = by_w * by_s;
+  const Pack logarithm = 0.5 * log(A_ * A_ * (w.re * w.re + w.im * w.im)) - log_unit_;
+  const ComplexPack far{force.re * (0.5 - logarithm), force.im * (0.5 - logarithm)};
+  ComplexPack u = far + 0.5 * conj(force) * (z * conj(by_s) - (A_ * A_ + B_ * B_) / A_ * conj(both));
   if (torque_ != 0.0) {
-    const Complex decay = B_ * both;
-    u += torque_ * (B_ * by_w) + z * std::conj(torque_ * decay) - std::conj(torque_ * (A_ * by_w + decay * (A_ * by_w + B_ * w)));
+    const ComplexPack decay = B_ * both;
+    u = u + torque * (B_ * by_w) + z * conj(torque * decay) - conj(torque * (A_ * by_w + decay * (A_ * by_w + B_ * w)));
   }
-  return axis_ * u;
+  return axis * u;
+}
+
+Complex CompletionFlow::velocity(Complex x) const {
+  const ComplexPack u = velocity(broadcast(x));
+  return {u.re[0], u.im[0]};
 }
 
 // The force's own Goursat functions are phi = -(F/8 pi) (log(A w) - 1) and psi = (conj(F) log(A w) + F m)/(8 pi);

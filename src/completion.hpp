@@ -7,6 +7,7 @@
 #pragma once
 
 #include "point_flow.hpp"
+#include "simd.hpp"
 #include "suspension.hpp"
 
 namespace stokes {
@@ -18,7 +19,8 @@ class CompletionFlow {
  public:
   CompletionFlow(const Shape& shape, const Pose& pose, const Wrench& wrench, double log_length = 1.0);
 
-  // At x on or outside the body.
+  // At points on or outside the body.
+  ComplexPack velocity(ComplexPack x) const;
   Complex velocity(Complex x) const;
 
  private:

@@ -15,7 +15,8 @@ constexpr double round_off = 1e-14;
 
 std::vector<Pose> halfway(const std::vector<Pose>& u, const std::vector<Pose>& v) {
   std::vector<Pose> middle(u.size());
-  for (std::size_t i = 0; i < u.size(); ++i) middle[i] = {0.5 * (u[i].centre + v[i].centre), 0.5 * (u[i].angle + v[i].angle)};
+  for (std::size_t i = 0; i < u.size(); ++i)
+    middle[i] = {0.5 * (u[i].centre + v[i].centre), 0.5 * (u[i].angle + v[i].angle)};
   return middle;
 }
 
@@ -55,8 +56,8 @@ void ImplicitMidpoint::iterate(StepStart& start, double dt, Trial& trial) const 
   double before = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     if (const double gap = start.relative_gap(middle); gap < least_gap) {
-      trial.failure = concat("bodies come as close as ", brief(gap), " separations in the middle of the step; integrator = rk3 ",
-                             "keeps the separation there, too");
+      trial.failure = concat("bodies come as close as ", brief(gap),
+                             " separations in the middle of the step; integrator = rk3 ", "keeps the separation there, too");
       return;
     }
     Stage stage{1.0, start.configuration(middle, 0.5 * dt), {}};

@@ -7,8 +7,12 @@
 namespace stokes {
 
 Progress::Progress(double end_time, double start_time, const std::string& label)
-    : label_(label.empty() ? label : label + ": "), start_time_(start_time), end_time_(end_time), terminal_(isatty(STDERR_FILENO) != 0),
-      start_(Clock::now()), last_(start_) {
+    : label_(label.empty() ? label : label + ": "),
+      start_time_(start_time),
+      end_time_(end_time),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      start_(Clock::now()),
+      last_(start_) {
   while (100.0 * start_time_ >= end_time_ * next_percent_) next_percent_ += 5;
 }
 
@@ -36,8 +40,8 @@ void Progress::show(const StepRecord& record) {
   const double left = way > 0.0 ? elapsed * (end_time_ - record.time) / way : 0.0;
   clear_line();
   std::fprintf(stderr, "%s%3.0f %%  time %.6g of %.6g  step %ld  contacts %zu  iterations %d gmres, %d ncp  %.0f s left%s",
-               label_.c_str(), 100.0 * done, record.time, end_time_, record.step, record.outcome->contacts.size(), record.outcome->gmres_iterations,
-               record.outcome->ncp_iterations, left, terminal_ ? "" : "\n");
+               label_.c_str(), 100.0 * done, record.time, end_time_, record.step, record.outcome->contacts.size(),
+               record.outcome->gmres_iterations, record.outcome->ncp_iterations, left, terminal_ ? "" : "\n");
   line_open_ = terminal_;
 }
 

@@ -191,7 +191,9 @@ class ResolutionWarnings {
   void observe(const StepRecord& record) {
     if (!record.outcome) return;
     const StepOutcome& step = *record.outcome;
-    const auto warn = [&](const auto&... parts) { progress_.message(concat("warning: at time ", record.time, " ", parts...)); };
+    const auto warn = [&](const auto&... parts) {
+      progress_.message(concat("warning: at time ", record.time, " ", parts...));
+    };
     if (step.unresolved > 0 && unresolved_steps_++ == 0 && by_accuracy_)
       warn(step.unresolved, " boundaries do not keep the accuracy; the estimated error is ", brief(step.estimated_error));
     if (!step.shortfalls.empty()) {

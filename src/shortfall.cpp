@@ -35,7 +35,8 @@ std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Di
   for (const auto& entry : pairs)
     if (entry.second.error > largest_of_pair) result.push_back(entry.second);
   for (int i = 0; i < count; ++i)
-    if (const double error = alone.error(bodies[i].shape, nodes[i].points); error > largest_alone) result.push_back({i, i, 0.0, error});
+    if (const double error = alone.error(bodies[i].shape, nodes[i].points); error > largest_alone)
+      result.push_back({i, i, 0.0, error});
   std::stable_sort(result.begin(), result.end(), [](const Shortfall& s, const Shortfall& t) { return s.error > t.error; });
   return result;
 }
@@ -43,7 +44,8 @@ std::vector<Shortfall> shortfalls(const Suspension& bodies, const std::vector<Di
 std::string describe(const Shortfall& s) {
   if (s.a == s.b)
     return concat("the nodes of body ", s.a, " do not resolve its own form: the estimated error of its velocities is ",
-                  brief(s.error), " of the rate; write accuracy = 1e-4 in place of points_per_body, or more points_per_body");
+                  brief(s.error),
+                  " of the rate; write accuracy = 1e-4 in place of points_per_body, or more points_per_body");
   return concat("the nodes of ", pair_name(s.a, s.b), " do not resolve their gap of ", brief(s.gap),
                 ": the estimated relative error of its rate is ", brief(s.error),
                 "; write accuracy = 1e-4 in place of points_per_body (and wall_points)");

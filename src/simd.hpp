@@ -7,6 +7,12 @@
 #include <utility>
 #include <vector>
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#else
+#include <cmath>
+#endif
+
 namespace stokes {
 
 #if defined(__AVX512F__)
@@ -59,6 +65,24 @@ using AlignedVector = std::vector<double, CacheLineAllocator<double>>;
 // All lanes equal.
 inline Pack broadcast(double value) { return value - Pack{}; }
 
+// The compiler does not vectorise std::sqrt, which may set errno.
+inline Pack sqrt(Pack v) {
+#if defined(__AVX512F__)
+  return (Pack)_mm512_sqrt_pd((__m512d)v);
+#elif defined(__AVX__)
+  return (Pack)_mm256_sqrt_pd((__m256d)v);
+#elif defined(__SSE2__)
+  return (Pack)_mm_sqrt_pd((__m128d)v);
+#else
+  for (int i = 0; i < lanes; ++i) v[i] = std::sqrt(v[i]);
+  return v;
+#endif
+}
+
+inline PackBits sign_bits(Pack v) { return (PackBits)v & (PackBits)broadcast(-0.0); }
+inline Pack absolute(Pack v) { return (Pack)((PackBits)v & ~(PackBits)broadcast(-0.0)); }
+inline Pack with_sign(Pack magnitude, PackBits sign) { return (Pack)((PackBits)magnitude ^ sign); }
+
 // Keeps a loaded pack in a register. Otherwise g++ loads it again for each of its uses, which makes loops with
 // several products of one load bound by the loads.
 inline void keep_in_register([[maybe_unused]] Pack& v) {
@@ -108,6 +132,10 @@ struct ComplexPack {
 inline ComplexPack operator*(ComplexPack a, ComplexPack b) {
   return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
+
+inline ComplexPack operator*(double a, ComplexPack b) { return {a * b.re, a * b.im}; }
+inline ComplexPack operator+(ComplexPack a, ComplexPack b) { return {a.re + b.re, a.im + b.im}; }
+inline ComplexPack operator-(ComplexPack a, ComplexPack b) { return {a.re - b.re, a.im - b.im}; }
 
 inline ComplexPack conj(ComplexPack a) { return {a.re, -a.im}; }
 

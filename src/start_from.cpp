@@ -29,8 +29,8 @@ Wanted parse(const std::string& text) {
 
 Table read_result(const fs::path& file) {
   if (!fs::exists(file))
-    throw InputError(concat("start_from: there is no ", file.string(), "; name the output folder of an earlier run, relative ",
-                            "to the working directory."));
+    throw InputError(concat("start_from: there is no ", file.string(),
+                            "; name the output folder of an earlier run, relative ", "to the working directory."));
   return read_csv(file);
 }
 

@@ -23,9 +23,12 @@ void add(Wrench& sum, double weight, const Wrench& other) {
 
 // Multipliers add up; the constraint is that of the latest stage.
 void add(std::vector<ActiveContact>& sum, double weight, const std::vector<ActiveContact>& contacts) {
-  const auto identity = [](const ActiveContact& c) { return std::tuple(c.constraint.a, c.constraint.b, c.constraint.region); };
+  const auto identity = [](const ActiveContact& c) {
+    return std::tuple(c.constraint.a, c.constraint.b, c.constraint.region);
+  };
   for (const ActiveContact& c : contacts) {
-    const auto place = std::lower_bound(sum.begin(), sum.end(), c, [&](const auto& u, const auto& v) { return identity(u) < identity(v); });
+    const auto place =
+        std::lower_bound(sum.begin(), sum.end(), c, [&](const auto& u, const auto& v) { return identity(u) < identity(v); });
     if (place == sum.end() || identity(*place) != identity(c))
       sum.insert(place, {c.constraint, weight * c.multiplier});
     else

@@ -108,7 +108,8 @@ void StokesSystem::finish_boundary(const BoundarySet& set, int i, const Vector& 
 }
 
 // Flows of all long circles, in the order of long_circles_; zero for circles outside the set.
-std::vector<StokesSystem::LongCircleFlow> StokesSystem::long_circle_flows(const BoundarySet& set, const Complex* density) const {
+std::vector<StokesSystem::LongCircleFlow> StokesSystem::long_circle_flows(const BoundarySet& set,
+                                                                          const Complex* density) const {
   std::vector<LongCircleFlow> flows;
   for (const LongCircle& circle : long_circles_) {
     const PlacedShape& b = boundaries_[circle.boundary];
@@ -133,7 +134,8 @@ void StokesSystem::add_long_circle(const NearBlock& near, const std::vector<Long
     z.push_back(source.local(x));
   }
   ComplexVector plain;
-  double_layer_velocity(points, long_circles_[c].nodes, long_circles_[c].weighted_normal, flows[c].density, plain, softening_);
+  double_layer_velocity(points, long_circles_[c].nodes, long_circles_[c].weighted_normal, flows[c].density, plain,
+                        softening_);
   const std::vector<Complex> exact = flows[c].series.velocity(z);
   for (std::size_t r = 0; r < near.rows.size(); ++r)
     result[near.rows[r]] += std::conj(target.axis) * (source.axis * exact[r] - plain[static_cast<Eigen::Index>(r)]);
@@ -153,11 +155,19 @@ ComplexVector StokesSystem::boundary_data(const BoundarySet& set, const Backgrou
     const int i = set.members[n];
     const PlacedShape& b = boundaries_[i];
     const bool moving = b.shape->kind != BoundaryKind::free && flow.walls != 0.0;
-    for (int k = set.first[i]; k < set.first[i] + b.size(); ++k) {
-      const Complex x = set.nodes[k];
-      u[k] = -flow.velocity(x);
-      for (const CompletionFlow& completion : completions) u[k] -= completion.velocity(x);
-      if (moving) u[k] += flow.walls * surfaces_[i].velocity(x - b.pose.centre);
+    const int first = set.first[i], last = first + b.size() - 1;
+    for (int k = first; k <= last; ++k) {
+      u[k] = -flow.velocity(set.nodes[k]);
+      if (moving) u[k] += flow.walls * surfaces_[i].velocity(set.nodes[k] - b.pose.centre);
+    }
+    for (int k = first; k <= last && !completions.empty(); k += lanes) {
+      ComplexPack x, sum{};
+      for (int l = 0; l < lanes; ++l) {
+        const Complex node = set.nodes[std::min(k + l, last)];
+        x.re[l] = node.real(), x.im[l] = node.imag();
+      }
+      for (const CompletionFlow& completion : completions) sum = sum + completion.velocity(x);
+      for (int l = 0; l < std::min(lanes, last + 1 - k); ++l) u[k + l] -= Complex(sum.re[l], sum.im[l]);
     }
   });
   return u;
@@ -201,14 +211,16 @@ StokesSolution StokesSystem::solve_data(const BoundarySet& set, ComplexVector da
                                         double tolerance, double scale) const {
   StokesSolution solution;
   const Vector rhs = straining_data(set, std::move(data), solution.velocity);
-  const GmresResult result = gmres([&](const Vector& in, Vector& out) { apply(set, in, out); },
-                                   [&](const Vector& in, Vector& out) { preconditioner_->apply(set, in, out); }, rhs,
-                                   guess.size() == set.size() ? Vector(as_real(guess)) : Vector(),
-                                   {.tolerance = tolerance, .max_iterations = options_.gmres_max_iterations, .scale = scale});
+  const GmresResult result =
+      gmres([&](const Vector& in, Vector& out) { apply(set, in, out); },
+            [&](const Vector& in, Vector& out) { preconditioner_->apply(set, in, out); }, rhs,
+            guess.size() == set.size() ? Vector(as_real(guess)) : Vector(),
+            {.tolerance = tolerance, .max_iterations = options_.gmres_max_iterations, .scale = scale});
   if (!result.converged)
-    throw NumericalError(concat("GMRES stopped at a relative residual of ", result.residual, " after ", result.iterations,
-                                " iterations; the tolerance is ", tolerance,
-                                " (bodies closer than the points resolve? try more points_per_body or a larger separation)"));
+    throw NumericalError(
+        concat("GMRES stopped at a relative residual of ", result.residual, " after ", result.iterations,
+               " iterations; the tolerance is ", tolerance,
+               " (bodies closer than the points resolve? try more points_per_body or a larger separation)"));
   solution.iterations = result.iterations;
   solution.residual = result.residual;
   solution.data_norm = rhs.norm();

@@ -119,7 +119,8 @@ void StokesSystem::add_contact_frame(int a, int b, const Facing& facing) {
       const double t = std::remainder(alpha - clusters[k].alpha, 2.0 * pi);
       if (std::abs(t) > clusters[k].width || std::abs(t) >= std::abs(nearest)) continue;
       nearest = t;
-      const Complex there = shape.shape.derivative(alpha), turn = shape.curve.clusters.tangent[k] * std::conj(there) / std::abs(there);
+      const Complex there = shape.shape.derivative(alpha),
+                    turn = shape.curve.clusters.tangent[k] * std::conj(there) / std::abs(there);
       e = {static_cast<int>(k), shape.shape.offset(clusters[k].alpha, t), t == 0.0 ? Complex(1.0) : turn};
     }
     return e;
@@ -167,7 +168,8 @@ std::vector<Target> StokesSystem::seen_from(int source, int target, const std::v
 }
 
 // The double layer of some nodes at others as the sum over nodes gives it; zero for a node itself.
-Matrix StokesSystem::plain_rows(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const {
+Matrix StokesSystem::plain_rows(int target, const std::vector<int>& rows, int source,
+                                const std::vector<int>& columns) const {
   const PlacedShape &t = boundaries_[target], &s = boundaries_[source];
   const double least = std::max(std::pow(softening_, 4), 1e-148);
   VelocityRows plain{Matrix(rows.size(), columns.size()), ComplexMatrix(rows.size(), columns.size())};
@@ -256,8 +258,9 @@ void StokesSystem::find_completion_columns() {
       const Wrench unit{{j == 0 ? 1.0 : 0.0, j == 1 ? 1.0 : 0.0}, j == 2 ? 1.0 : 0.0};
       for (const PlacedShape& b : boundaries_)
         for (int k = 0; k < b.size(); ++k) {
-          const Complex u = source.axis * std::conj(b.axis) *
-                            completion_velocity(source.shape->shape, {}, unit, source.local(all_.nodes[b.offset + k]), log_length_);
+          const Complex u =
+              source.axis * std::conj(b.axis) *
+              completion_velocity(source.shape->shape, {}, unit, source.local(all_.nodes[b.offset + k]), log_length_);
           completion_(2 * (b.offset + k), 3 * f + j) = u.real();
           completion_(2 * (b.offset + k) + 1, 3 * f + j) = u.imag();
         }
@@ -288,7 +291,8 @@ std::vector<ClosePair> StokesSystem::close_pairs(const Suspension& bodies) const
 
 // The operator's block between nodes of two boundaries: the double layer, accurate at any distance, and a fixed
 // source's completion flows.
-Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int source, const std::vector<int>& columns) const {
+Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int source,
+                                 const std::vector<int>& columns) const {
   const PlacedShape &t = boundaries_[target], &s = boundaries_[source];
   Matrix block = plain_rows(target, rows, source, columns);
   const auto add = [&](Eigen::Index r, const Eigen::Ref<const Matrix>& whole_row) {
@@ -299,7 +303,8 @@ Matrix StokesSystem::interaction(int target, const std::vector<int>& rows, int s
     if (near_[n].source != source) continue;
     std::vector<std::pair<Eigen::Index, std::size_t>> found;  // rows of the block and of the near block
     for (std::size_t k = 0; k < near_[n].rows.size(); ++k)
-      if (const auto r = std::lower_bound(rows.begin(), rows.end(), near_[n].rows[k]); r != rows.end() && *r == near_[n].rows[k])
+      if (const auto r = std::lower_bound(rows.begin(), rows.end(), near_[n].rows[k]);
+          r != rows.end() && *r == near_[n].rows[k])
         found.push_back({r - rows.begin(), k});
     if (near_[n].matrix.size() > 0) {
       for (const auto& [r, k] : found) add(r, near_[n].matrix.middleRows(2 * static_cast<Eigen::Index>(k), 2));

@@ -32,7 +32,8 @@ class SuperposedResponse : public ContactResponse {
 }  // namespace
 
 ContactResponseFactory superposed(MobilityFunction column) {
-  return [column = std::move(column)](const ContactStep& step) { return std::make_unique<SuperposedResponse>(step, column); };
+  return
+      [column = std::move(column)](const ContactStep& step) { return std::make_unique<SuperposedResponse>(step, column); };
 }
 
 }  // namespace stokes

@@ -118,7 +118,8 @@ class Workspace {
   // The same, but no file may have more than so many blocks of 512 bytes (of 1024 in some shells).
   ProgramRun run_limited(int blocks, const std::vector<std::string>& arguments) const {
     const TemporaryFolder counts;  // coverage counts, which the limit would truncate in their usual place
-    return run_by("", arguments, concat("export GCOV_PREFIX=", shell_word(counts.path().string()), "; ulimit -f ", blocks, "; "));
+    return run_by("", arguments,
+                  concat("export GCOV_PREFIX=", shell_word(counts.path().string()), "; ulimit -f ", blocks, "; "));
   }
 
   // The same, but after so many seconds the program gets a signal (KILL, TERM, INT).

@@ -77,9 +77,9 @@ TEST_CASE("velocities keep the accuracy at gaps of .1 to 1e-6, and the estimated
           const ResolvedSystem found = resolved(pair, FlowKind::extension, accuracy);
           const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
           const double error = largest_difference(found.solution.velocity, exact);
-          MESSAGE(std::string(kind.name), ", gap ", gap, ", turned by ", turn, ", accuracy ", accuracy, ": error ", error, ", estimated ",
-                  found.error, "; ", found.most_nodes(), " nodes, ", found.solves, " solves, ", found.solution.iterations,
-                  " iterations, ", seconds, " s");
+          MESSAGE(std::string(kind.name), ", gap ", gap, ", turned by ", turn, ", accuracy ", accuracy, ": error ", error,
+                  ", estimated ", found.error, "; ", found.most_nodes(), " nodes, ", found.solves, " solves, ",
+                  found.solution.iterations, " iterations, ", seconds, " s");
           CHECK(error <= std::max(accuracy, found.error));
           if (gap >= 1e-6) CHECK(error <= accuracy);
         }

@@ -46,8 +46,8 @@ TEST_CASE("one disc has the stresslet 4 pi a^2 E, and with its share of an area 
 }
 
 TEST_CASE("an ellipse has the stresslet of Jeffery's solution") {
-  // In the frame of its axes, with no torque, S_11 = pi (a + b)^2 E_11 and S_12 = 2 pi (a + b)^2 a b / (a^2 + b^2) E_12; both
-  // are 4 pi a^2 E for a disc.
+  // In the frame of its axes, with no torque, S_11 = pi (a + b)^2 E_11 and S_12 = 2 pi (a + b)^2 a b / (a^2 + b^2) E_12;
+  // both are 4 pi a^2 E for a disc.
   const double a = 1.2, b = 0.4;
   for (const double angle : {0.0, 0.6, 1.9}) {
     const Workspace here(case_text("shear", 96, 0.1, 0.1, "gmres_tolerance = 1e-12\n"),

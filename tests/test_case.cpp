@@ -262,7 +262,8 @@ TEST_CASE("a value out of its limits is refused with file, line and value") {
 TEST_CASE("a word that is not a value is refused with the values and the nearest one") {
   CHECK_REFUSED("contact = gab",
                 "contact = 'gab' is unknown: it can be gap or stiv or none; did you mean 'gap'?");
-  CHECK_ARGUMENT("flow=sheer", "it can be shear or extension or linear or poiseuille or taylor_green or none; did you mean 'shear'?");
+  CHECK_ARGUMENT("flow=sheer",
+                 "it can be shear or extension or linear or poiseuille or taylor_green or none; did you mean 'shear'?");
   CHECK_ARGUMENT("coupling=globl", "it can be global or local; did you mean 'global'?");
   CHECK_ARGUMENT("near_singular=Cauchy", "it can be cauchy or interpolation; did you mean 'cauchy'?");
   CHECK_ARGUMENT("time_counting=exactly", "it can be accumulated or exact; did you mean 'exact'?");

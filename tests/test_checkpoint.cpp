@@ -157,7 +157,8 @@ TEST_CASE("a run goes on from any of its steps to the same bits") {
   check_every_restart({"contact=stiv"}, passing_discs, "min_separation_length = .3\n");
   check_every_restart({"lcp_matrix=near", "refine=near"}, squeezed, "min_separation_length = .01\n");
   for (const char* integrator : {"ab2", "rk3", "midpoint"})
-    check_every_restart({concat("integrator=", integrator)}, passing_discs, "min_separation_length = .3\nreverse_at = 1.7\n");
+    check_every_restart({concat("integrator=", integrator)}, passing_discs,
+                        "min_separation_length = .3\nreverse_at = 1.7\n");
   check_every_restart({"integrator=ab2", "lcp_matrix=near", "refine=near"}, squeezed, "min_separation_length = .01\n");
   check_every_restart({"integrator=rk3", "tolerance=1e-4", "time_step=.3", "end_time=5"}, passing_discs,
                       "min_separation_length = .3\nreverse_at = 1.7\n");

@@ -14,7 +14,8 @@ namespace {
 constexpr double tolerance = 1e-13;  // of GMRES
 
 // N_0 nodes and clusters as for `accuracy`, the nodes of a cluster times `factor`.
-std::vector<Discretisation> nodes_of(const Suspension& bodies, int points, double accuracy, double factor, int upsampling = 2) {
+std::vector<Discretisation> nodes_of(const Suspension& bodies, int points, double accuracy, double factor,
+                                     int upsampling = 2) {
   std::vector<Resolution> resolution(bodies.size() + (bodies.container ? 1 : 0), Resolution{points, factor});
   std::vector<Discretisation> nodes = clustered_nodes(bodies, resolution, accuracy).nodes;
   for (Discretisation& d : nodes) d.upsampling = upsampling;
@@ -44,7 +45,8 @@ Suspension tip_on_flank(double gap) {
 }  // namespace
 
 // Solutions in bipolar coordinates for two free discs in u = (x, -y) along their line of centres: speed of each.
-TEST_CASE("two discs in extension and shear: absolute errors below 1e-11 at gaps of 1e-2 to 1e-8, anywhere, with 128 nodes") {
+TEST_CASE(
+    "two discs in extension and shear: absolute errors below 1e-11 at gaps of 1e-2 to 1e-8, anywhere, with 128 nodes") {
   struct Row {
     double gap, approach;  // of each disc, towards the other
   };
@@ -66,7 +68,8 @@ TEST_CASE("two discs, exact digits of N_0 = 26 and 38 nodes of a cluster: 1e-9 a
   const Suspension discs = discs_apart(1e-6, 0.0);
   std::vector<Discretisation> nodes = nodes_of(discs, 26, 1e-8, 1.0);
   for (Discretisation& d : nodes) d.clusters[0].points = 38;
-  const StokesSolution s = solution(discs, nodes, FlowKind::shear), fine = solution(discs, nodes_of(discs, 50, 1e-13, 1.0), FlowKind::shear);
+  const StokesSolution s = solution(discs, nodes, FlowKind::shear),
+                       fine = solution(discs, nodes_of(discs, 50, 1e-13, 1.0), FlowKind::shear);
   CHECK(std::abs(s.velocity[1].velocity - fine.velocity[1].velocity) < 1e-9);
   CHECK(std::abs(s.velocity[1].omega - fine.velocity[1].omega) < 1e-9);
 }
@@ -104,7 +107,8 @@ TEST_CASE("a disc pushed to the wall of a container has the mobility of many equ
     CHECK(std::abs(mobility / row.mobility - 1.0) < 0.01);
     const std::vector<Discretisation> finer = nodes_of(bodies, 80, 1e-13, 1.4);
     ShapeCache more_shapes;
-    const double fine = StokesSystem(bodies, finer, more_shapes, {1e-12}).solve({}, {{{1.0, 0.0}, 0.0}}).velocity[0].velocity.real();
+    const double fine =
+        StokesSystem(bodies, finer, more_shapes, {1e-12}).solve({}, {{{1.0, 0.0}, 0.0}}).velocity[0].velocity.real();
     CHECK(std::abs(mobility - fine) < 1e-10);
   }
 }
@@ -130,7 +134,9 @@ TEST_CASE("the multipole sum and the direct sum give the same velocities at a ga
   const std::vector<Discretisation> nodes = nodes_of(discs, 40, 1e-10, 1.0);
   const auto velocity = [&](Summation summation) {
     ShapeCache shapes;
-    return StokesSystem(discs, nodes, shapes, {.gmres_tolerance = 1e-10, .summation = summation}).solve({FlowKind::shear}, {}).velocity;
+    return StokesSystem(discs, nodes, shapes, {.gmres_tolerance = 1e-10, .summation = summation})
+        .solve({FlowKind::shear}, {})
+        .velocity;
   };
   const auto direct = velocity(Summation::direct), fast = velocity(Summation::fmm);
   for (int i = 0; i < 2; ++i) {

@@ -218,6 +218,22 @@ TEST_CASE("every key and every column that a page names is one") {
     CHECK(columns.find(concat(column, ",")) != std::string::npos);
 }
 
+TEST_CASE("sources have fewer than 400 lines, and no line of code has more than 125 characters") {
+  for (const char* folder : {"src", "experiments", "tests"})
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const std::string kind = entry.path().extension().string(), file = entry.path().string();
+      if (kind != ".cpp" && kind != ".hpp") continue;
+      CAPTURE(file);
+      const std::string text = content_of(entry.path());
+      const auto lines = split(text, '\n');
+      if (folder != std::string("tests")) CHECK(lines.size() < 400);
+      for (const std::string_view line : lines) {
+        CAPTURE(line);
+        CHECK(line.size() <= 125);
+      }
+    }
+}
+
 TEST_CASE("the page on the structure lists every source once, and no header includes what stands behind it") {
   const std::string page = content_of("paper/ARCHITECTURE.md");
   std::map<std::string, int> layer;

@@ -24,7 +24,8 @@ TEST_CASE("nearest points, normal, gap and curvatures are those of gap()") {
   const Gap against = gap(a, wall);
   CHECK(w.gap == against.value);
   CHECK(w.curvature_b == -0.5);
-  CHECK(std::abs(wall_pose(wall).centre + wall_pose(wall).axis() * wall_shape(wall).point(w.alpha_b) - against.point_b) < 1e-14);
+  CHECK(std::abs(wall_pose(wall).centre + wall_pose(wall).axis() * wall_shape(wall).point(w.alpha_b) - against.point_b) <
+        1e-14);
 }
 
 TEST_CASE("the width of a small gap is sqrt(2 gap/curvature); of a flat one less; of a wide one about the distance") {

@@ -81,7 +81,8 @@ TEST_CASE("simulate writes the Couette flow on a grid and balanced wall torques,
     CHECK(std::abs(value("sigma_xy") + shear) < 2e-3);
   }
   CHECK(fluid > 200);
-  const std::string bytes = content_of(here.path() / "out/fields_0.02.csv"), rows = content_of(here.path() / "out/steps.csv");
+  const std::string bytes = content_of(here.path() / "out/fields_0.02.csv"),
+                    rows = content_of(here.path() / "out/steps.csv");
   REQUIRE(here.run({"case.txt", "threads=2"}).status == 0);
   CHECK(content_of(here.path() / "out/fields_0.02.csv") == bytes);
   CHECK(content_of(here.path() / "out/steps.csv") == rows);
@@ -120,8 +121,9 @@ TEST_CASE("the flow of a step has its own nodes and densities: far away it is th
 }
 
 TEST_CASE("fields are driven as the step from there, also where accumulated time has not quite reached the reversal") {
-  const Workspace here(case_text("shear", 16, 0.1, 1.5, "time_counting = accumulated\nreverse_at = 1\nfields_at = 1 1.05 1.5\n"
-                                                        "field_points = 3\n"),
+  const Workspace here(case_text("shear", 16, 0.1, 1.5,
+                                 "time_counting = accumulated\nreverse_at = 1\nfields_at = 1 1.05 1.5\n"
+                                 "field_points = 3\n"),
                        "a,b,x,y,theta\n.5,.5,0,2,0\n");
   REQUIRE(here.run({"case.txt"}).status == 0);
   const Results results = here.results();

@@ -92,7 +92,8 @@ Complex slide(IntegratorKind integrator, int steps) {
 // A step from given bodies whose stages can be inspected.
 class OneStep : public StepStart {
  public:
-  OneStep(Suspension bodies, const StepperOptions& options) : bodies_(std::move(bodies)), fluid_(options), contacts_(options) {}
+  OneStep(Suspension bodies, const StepperOptions& options)
+      : bodies_(std::move(bodies)), fluid_(options), contacts_(options) {}
 
   const Suspension& bodies() const override { return bodies_; }
   std::shared_ptr<Configuration> configuration() override {

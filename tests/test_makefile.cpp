@@ -35,7 +35,8 @@ TEST_CASE("make deps without root and sudo says which packages to ask for, and h
     CAPTURE(run.errors);
     CHECK(run.status == 2);
     CHECK(contains(run.output, "Missing here: "));
-    for (const char* line : {"\n  apt install ", "\n  dnf install ", "\n  brew install ", "\n  conda install ", "\n  module load "})
+    for (const char* line :
+         {"\n  apt install ", "\n  dnf install ", "\n  brew install ", "\n  conda install ", "\n  module load "})
       CHECK(contains(run.errors, line));
     CHECK_FALSE(contains(run.errors, "not found"));
   }
@@ -57,7 +58,8 @@ TEST_CASE("a test that measures") { MESSAGE("as seen with VERBOSE=1 only"); }
 TEST_CASE("the tests print a line for each file and the summary, and with VERBOSE=1 what they measure") {
   const fs::path tests = fs::read_symlink("/proc/self/exe");
   for (const bool verbose : {false, true}) {
-    const ProgramRun run = run_program(tests, {"-tc=a test that measures"}, ".", "", verbose ? "export VERBOSE=1; " : "unset VERBOSE; ");
+    const ProgramRun run =
+        run_program(tests, {"-tc=a test that measures"}, ".", "", verbose ? "export VERBOSE=1; " : "unset VERBOSE; ");
     CHECK(run.status == 0);
     CHECK(contains(run.output, "as seen with VERBOSE=1 only") == verbose);
     CHECK(run.output.ends_with("tests/test_makefile.cpp: 1 passed, 0 failed\n1 passed, 0 failed\n"));

@@ -18,8 +18,9 @@ const Discretisation two_clusters{38, {{0.7, 1e-4, 40}, {4.0, 0.03, 18}}};
 }  // namespace
 
 TEST_CASE("the map of nodes runs around once, its derivatives are those of its values and it inverts itself") {
-  for (const Discretisation& nodes : {Discretisation{40, {{1.6, 0.3, 10}}}, Discretisation{38, {{0.0, 1e-4, 58}}}, two_clusters,
-                                      Discretisation{32, {{0.2, 1e-6, 40}, {0.2004, 1e-3, 20}, {6.2, 0.01, 30}}}}) {
+  for (const Discretisation& nodes :
+       {Discretisation{40, {{1.6, 0.3, 10}}}, Discretisation{38, {{0.0, 1e-4, 58}}}, two_clusters,
+        Discretisation{32, {{0.2, 1e-6, 40}, {0.2004, 1e-3, 20}, {6.2, 0.01, 30}}}}) {
     const NodeMap map(nodes);
     CHECK(map.position(0.0) == 0.0);
     CHECK(std::abs(map.position(2.0 * pi - 1e-9) - 2.0 * pi) < 1e-4);
@@ -55,7 +56,8 @@ TEST_CASE("the map inverts itself for any clusters, also where one stands on the
     Discretisation nodes{32 + 2 * static_cast<int>(60 * uniform()), {}};
     if (trial == 0) nodes = {162, {{4.192490, 1.891e-3, 128}, {4.549370, 8.654e-2, 70}}};
     for (int k = 0; k < trial % 6; ++k)
-      nodes.clusters.push_back({2.0 * pi * uniform(), std::pow(10.0, -5.0 * uniform()), 10 + 2 * static_cast<int>(60 * uniform())});
+      nodes.clusters.push_back(
+          {2.0 * pi * uniform(), std::pow(10.0, -5.0 * uniform()), 10 + 2 * static_cast<int>(60 * uniform())});
     const NodeMap map(nodes);
     const int count = 3 * nodes.size();
     const std::vector<MappedNode> mapped = map.at_equal_steps(count);
@@ -92,7 +94,8 @@ TEST_CASE("offsets from a point keep their digits along the tangent and across i
       // The first terms of the series in t; the third derivative of an ellipse is minus its first.
       const Complex second = std::conj(along) * -ellipse.point(alpha), third = std::conj(along) * -slope;
       if (std::abs(t) > 1e-3) continue;
-      const Complex series = std::abs(slope) * t + t * t / 2.0 * second + t * t * t / 6.0 * third - std::pow(t, 4) / 24.0 * second;
+      const Complex series =
+          std::abs(slope) * t + t * t / 2.0 * second + t * t * t / 6.0 * third - std::pow(t, 4) / 24.0 * second;
       CHECK(std::abs(o.real() / series.real() - 1.0) < 1e-13);
       CHECK(std::abs(o.imag() / series.imag() - 1.0) < 1e-11);
     }
@@ -100,7 +103,8 @@ TEST_CASE("offsets from a point keep their digits along the tangent and across i
 
 TEST_CASE("a curve through clustered nodes has the ellipse's perimeter, area and derivatives") {
   const Shape ellipse{0.475, 0.1};
-  for (const Discretisation& nodes : {Discretisation{128, {{1.6, 0.05, 64}}}, Discretisation{128, {{1.6, 1e-4, 64}, {0.3, 0.01, 48}}}}) {
+  for (const Discretisation& nodes :
+       {Discretisation{128, {{1.6, 0.05, 64}}}, Discretisation{128, {{1.6, 1e-4, 64}, {0.3, 0.01, 48}}}}) {
     const Curve curve = ellipse.curve(nodes);
     REQUIRE(curve.size() == nodes.size());
     CHECK(std::abs(curve.length() / ellipse.perimeter() - 1.0) < 1e-12);

@@ -33,7 +33,8 @@ class ReportFolder {
 TEST_CASE("text keeps its meaning in LaTeX") {
   CHECK(tex_text("50 % of a_b & {x} #1 $2") == "50 \\% of a\\_b \\& \\{x\\} \\#1 \\$2");
   CHECK(tex_text("\\a^b~c<d") == "\\textbackslash{}a\\textasciicircum{}b\\textasciitilde{}c$<$d");
-  CHECK(tex_prose("eta over rho^4, a beta in `a_b/pi.hpp`") == "$\\eta$ over $\\rho$$^{4}$, a beta in \\texttt{a\\_b/pi.hpp}");
+  CHECK(tex_prose("eta over rho^4, a beta in `a_b/pi.hpp`") ==
+        "$\\eta$ over $\\rho$$^{4}$, a beta in \\texttt{a\\_b/pi.hpp}");
   CHECK(tex_prose("\"pi\" and sigma_S, but dt_max") == "``$\\pi$'' and $\\sigma$$_{S}$, but dt\\_max");
   CHECK(tex_prose("`open") == "\\texttt{open}");
 }
@@ -51,7 +52,8 @@ TEST_CASE("numbers are written with the digits asked for") {
 
 TEST_CASE("requests are found once each, not in comments nor in definitions") {
   const std::string document =
-      "\\newcommand{\\result}[3]{x}\n% \\result{no}{no}{0f}\nis \\result{a/b}{c}{2f}, \\result{a/d}{c}{2f} % \\result{no}{no}{0f}\n"
+      "\\newcommand{\\result}[3]{x}\n% \\result{no}{no}{0f}\nis \\result{a/b}{c}{2f}, \\result{a/d}{c}{2f} % "
+      "\\result{no}{no}{0f}\n"
       "5\\,\\% & \\result{a/e}{c}{2f} \\% % \\result{no}{no}{0f}\n"
       "\\newcommand{\\again}[1]{\\result{#1}{c}{2f}} \\result{a/b}{c}{2f}\n\\resultant{x}{y}{z}";
   const auto requests = requests_in(document, "result", 3);
@@ -88,7 +90,8 @@ TEST_CASE("what is missing is told, each thing once") {
 
 TEST_CASE("a table that is older than a case it was collected from is told") {
   const ReportFolder here;
-  fs::last_write_time(here.path("results/run/table.csv"), fs::last_write_time(here.path("results/run/first.csv")) - std::chrono::seconds(5));
+  fs::last_write_time(here.path("results/run/table.csv"),
+                      fs::last_write_time(here.path("results/run/first.csv")) - std::chrono::seconds(5));
   Inputs inputs = here.inputs();
   CHECK(inputs.number("run/table[phi=5]", "mean") == 1.5);
   REQUIRE(inputs.problems().size() == 1);

@@ -84,8 +84,8 @@ TEST_CASE("an ellipse in shear has Jeffery's angular velocity and the closed-for
       const Complex E = Complex(0.0, 0.5) * std::polar(1.0, -2.0 * angle);
       const Complex S = pi * (a + b) * (a + b) * Complex(E.real(), E.imag() * 2.0 * a * b / (a * a + b * b));
       worst_omega = std::max(worst_omega, std::abs(s.velocity[0].omega - omega));
-      worst_stresslet = std::max(worst_stresslet,
-                                 std::abs(system.stresslets(s.density, {})[0] - S * std::polar(1.0, 2.0 * angle)) / std::abs(S));
+      worst_stresslet = std::max(
+          worst_stresslet, std::abs(system.stresslets(s.density, {})[0] - S * std::polar(1.0, 2.0 * angle)) / std::abs(S));
     }
     CHECK(worst_omega < 1e-10);
     CHECK(worst_stresslet < 1e-10);
@@ -112,8 +112,8 @@ TEST_CASE("two close discs move in strain and resist squeezing as the bipolar so
     const double V = turn.velocity[1].velocity.imag() + x;
     const StokesSolution squeeze = system.solve({}, {{1.0, 0.0}, {-1.0, 0.0}});
     const double F = 1.0 / squeeze.velocity[0].velocity.real();
-    INFO("gap ", row.eps, " iterations ", pull.iterations, " errors U ", relative_error(U, exact.U), " w ", relative_error(w, exact.w), " V ",
-         relative_error(V, exact.V), " F ", relative_error(F, exact.F));
+    INFO("gap ", row.eps, " iterations ", pull.iterations, " errors U ", relative_error(U, exact.U), " w ",
+         relative_error(w, exact.w), " V ", relative_error(V, exact.V), " F ", relative_error(F, exact.F));
     CHECK(relative_error(U, exact.U) < row.tolerance);
     CHECK(relative_error(w, exact.w) < row.tolerance);
     CHECK(relative_error(V, exact.V) < row.tolerance);

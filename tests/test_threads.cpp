@@ -1,4 +1,5 @@
-// Loops over threads: every index once, an exception that does not depend on the threads, and idle threads that cost nothing.
+// Loops over threads: every index once, an exception that does not depend on the threads, and idle threads that cost
+// nothing.
 #include <doctest/doctest.h>
 
 #include <chrono>
