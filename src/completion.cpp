@@ -22,9 +22,9 @@ ComplexPack outer_root(ComplexPack p, ComplexPack z) {
   const Pack modulus = sqrt(p.re * p.re + p.im * p.im), larger = sqrt(0.5 * (modulus + absolute(p.re)));
   const Pack smaller = 0.5 * absolute(p.im) / larger;
   const auto right = p.re >= 0.0;
-  const Pack re = right ? larger : smaller, im = with_sign(right ? smaller : larger, sign_bits(p.im));
+  const Pack re = right ? larger : smaller, im = flip_sign(right ? smaller : larger, sign_bits(p.im));
   const PackBits flip = sign_bits(re * z.re + im * z.im);
-  return {with_sign(re, flip), with_sign(im, flip)};
+  return {flip_sign(re, flip), flip_sign(im, flip)};
 }
 
 ComplexPack broadcast(Complex value) { return {stokes::broadcast(value.real()), stokes::broadcast(value.imag())}; }

@@ -119,16 +119,16 @@ class NearMatrix : public ContactMatrix {
   // Columns of nearby bodies may be too rough for a long chain: the last attempt takes whole ones.
   NcpResult resolve(Configuration& at, const ContactSolver& solve, const NcpOptions& options) override {
     const bool knows = !latest_.known.contacts.empty();
-    NcpOptions cheap = options;
+    NcpOptions limited = options;
     NcpResult result;
     const auto attempt = [&](const ContactResponseFactory& response, int iterations) {
       at.effort().ncp_iterations += result.iterations;
-      cheap.max_iterations = std::min(options.max_iterations, iterations);
-      result = solve(response, cheap);
+      limited.max_iterations = std::min(options.max_iterations, iterations);
+      result = solve(response, limited);
     };
     attempt(nearby(at, latest_), knows ? first_iterations : nearby_iterations);
     if (!result.solved && knows) attempt(nearby(at, latest_ = {}), nearby_iterations);
-    if (!result.solved && learns_ && result.iterations < cheap.max_iterations)
+    if (!result.solved && learns_ && result.iterations < limited.max_iterations)
       attempt(solved(column(at), full_response(at)), nearby_iterations);
     if (!result.solved) attempt(full_columns(at, ContactHistories{}), options.max_iterations);
     if (result.solved) learn(at, result);

@@ -26,14 +26,6 @@ std::vector<RigidVelocity> shift_of(const Suspension& start, const std::vector<P
   return ahead ? shift : std::vector<RigidVelocity>{};
 }
 
-// Nothing if `other` is empty.
-void add(std::vector<RigidVelocity>& velocity, double factor, const std::vector<RigidVelocity>& other) {
-  for (std::size_t i = 0; i < other.size(); ++i) {
-    velocity[i].velocity += factor * other[i].velocity;
-    velocity[i].omega += factor * other[i].omega;
-  }
-}
-
 }  // namespace
 
 ContactProblem::ContactProblem(const StepperOptions& options)
@@ -78,12 +70,9 @@ Response ContactProblem::respond(Configuration& at, const std::vector<ActiveCont
   const Suspension& bodies = at.bodies();
   std::vector<std::pair<int, int>> pairs;
   for (const ActiveContact& c : contacts) pairs.push_back({c.constraint.a, c.constraint.b});
-  std::vector<int> fixed;
+  const std::vector<int> fixed = fixed_bodies(bodies);
   std::vector<Pose> poses;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    if (bodies[i].fixed) fixed.push_back(static_cast<int>(i));
-    poses.push_back(bodies[i].pose);
-  }
+  for (const auto& body : bodies) poses.push_back(body.pose);
   std::vector<std::vector<Wrench>> units;
   std::vector<double> multipliers;
   const GapCollector collector(bodies, options_.separation);

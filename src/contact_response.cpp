@@ -9,15 +9,8 @@ double ContactStep::rate(const ContactConstraint& c, const GapGradient& gradient
   return rate_of(start, c, gradient, velocity);
 }
 
-std::vector<int> ContactStep::fixed() const {
-  std::vector<int> result;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (start[i].fixed) result.push_back(static_cast<int>(i));
-  return result;
-}
-
 ContactResponse::ContactResponse(const ContactStep& step, MobilityFunction column)
-    : step_(step), fixed_(step.fixed()), column_(std::move(column)) {}
+    : step_(step), fixed_(fixed_bodies(step.start)), column_(std::move(column)) {}
 
 Vector ContactResponse::values_without_forces(Candidates& candidates) {
   Vector b(static_cast<Eigen::Index>(candidates.size()));
@@ -61,11 +54,15 @@ void ContactResponse::find_column(Candidate& c) const {
   c.column = column_(unit.on_all_but(fixed_));
 }
 
-void add(Response& a, double factor, const Response& b) {
-  for (std::size_t i = 0; i < a.velocity.size(); ++i) {
-    a.velocity[i].velocity += factor * b.velocity[i].velocity;
-    a.velocity[i].omega += factor * b.velocity[i].omega;
+void add(std::vector<RigidVelocity>& a, double factor, const std::vector<RigidVelocity>& b) {
+  for (std::size_t i = 0; i < b.size(); ++i) {
+    a[i].velocity += factor * b[i].velocity;
+    a[i].omega += factor * b[i].omega;
   }
+}
+
+void add(Response& a, double factor, const Response& b) {
+  add(a.velocity, factor, b.velocity);
   a.density += factor * b.density;
 }
 

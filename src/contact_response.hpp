@@ -39,7 +39,6 @@ struct ContactStep {
 
   // Rate of change of the value of c.
   double rate(const ContactConstraint& c, const GapGradient& gradient, const std::vector<RigidVelocity>& velocity) const;
-  std::vector<int> fixed() const;  // bodies
 };
 
 // The response of the suspension to given forces and torques, zero for fixed bodies.
@@ -97,7 +96,8 @@ ContactResponseFactory solved(MobilityFunction column, ResponseFunction response
 ContactResponseFactory learned(MobilityFunction column, ResponseFunction response, KnownContacts known,
                                std::vector<ComplexVector> answers);
 
-// a + factor b, where a has the velocities and the density of all bodies.
+// a + factor b. Velocities: nothing for the bodies that b does not have; responses: a has those of all bodies.
+void add(std::vector<RigidVelocity>& a, double factor, const std::vector<RigidVelocity>& b);
 void add(Response& a, double factor, const Response& b);
 
 }  // namespace stokes

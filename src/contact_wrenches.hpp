@@ -27,6 +27,13 @@ struct ContactWrenches {
   }
 };
 
+inline std::vector<int> fixed_bodies(const Suspension& bodies) {
+  std::vector<int> result;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].fixed) result.push_back(static_cast<int>(i));
+  return result;
+}
+
 // Rate of change of a value with the given gradient when the mobile bodies move with `velocity`.
 inline double rate_of(const Suspension& bodies, const ContactConstraint& c, const GapGradient& gradient,
                       const std::vector<RigidVelocity>& velocity) {

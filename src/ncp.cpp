@@ -26,8 +26,8 @@ class Iteration {
  public:
   Iteration(const ContactStep& step, const ConstraintFunction& constraints, const ContactResponseFactory& response,
             const BalanceFunction& balance)
-      : step_(step), constraints_(constraints), balance_(balance), fixed_(step.fixed()), response_(response(step)),
-        base_wrenches_{std::vector<Wrench>(step.start.size()), {}} {}
+      : step_(step), constraints_(constraints), balance_(balance), fixed_(fixed_bodies(step.start)),
+        response_(response(step)), base_wrenches_{std::vector<Wrench>(step.start.size()), {}} {}
 
   // Moves the bodies with the current multipliers and evaluates all constraints there.
   void update() {

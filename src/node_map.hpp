@@ -63,7 +63,7 @@ class NodeMap {
   double from_cluster(std::size_t k, double t) const;
   double first_derivative(std::size_t k, double t) const;  // of s with respect to alpha
   double second_derivative(std::size_t k, double t) const;
-  double distance_from_cluster(std::size_t k, double s, double guess) const;
+  double distance_from_cluster(std::size_t k, double s, double guess) const;  // inverse of from_cluster
 
   std::vector<Kernel> kernels_;
   std::vector<double> between_;  // of each cluster, the integrals of all kernels up to it

@@ -81,7 +81,7 @@ inline Pack sqrt(Pack v) {
 
 inline PackBits sign_bits(Pack v) { return (PackBits)v & (PackBits)broadcast(-0.0); }
 inline Pack absolute(Pack v) { return (Pack)((PackBits)v & ~(PackBits)broadcast(-0.0)); }
-inline Pack with_sign(Pack magnitude, PackBits sign) { return (Pack)((PackBits)magnitude ^ sign); }
+inline Pack flip_sign(Pack magnitude, PackBits sign) { return (Pack)((PackBits)magnitude ^ sign); }
 
 // Keeps a loaded pack in a register. Otherwise g++ loads it again for each of its uses, which makes loops with
 // several products of one load bound by the loads.

@@ -12,16 +12,13 @@ Response SolvedResponse::motion(const Candidates& candidates, const std::vector<
   Response result = step_.contact_free;
   if (std::none_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.total() > 0.0; })) return result;
   const Response answer = response_(wrenches, expected_density(candidates));
-  for (const Candidate& c : candidates) {
-    multipliers(c);
-    answers_.multipliers[identity(c.constraint)].push_back(c.total());
-  }
+  for (const Candidate& c : candidates) multipliers(c).push_back(c.total());
   answers_.densities.push_back(answer.density);
   add(result, 1.0, answer);
   return result;
 }
 
-const std::vector<double>& SolvedResponse::multipliers(const Candidate& c) {
+std::vector<double>& SolvedResponse::multipliers(const Candidate& c) {
   std::vector<double>& result = answers_.multipliers[identity(c.constraint)];
   result.resize(answers_.densities.size());
   return result;

@@ -27,7 +27,7 @@ class SolvedResponse : public ContactResponse {
   virtual double scale(Eigen::Index) const { return 1.0; }
 
   // In all answers.
-  const std::vector<double>& multipliers(const Candidate& c);
+  std::vector<double>& multipliers(const Candidate& c);
 
  private:
   ComplexVector expected_density(const Candidates& candidates);
