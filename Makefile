@@ -33,7 +33,7 @@ OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $
 .SUFFIXES:
 .PHONY: help deps deps-figures all objects test reproduce reproduce-all reproduce-quick verify figures movies paper bench \
         picture movie \
-        sanitize sanitize-threads fuzz coverage \
+        sanitize sanitize-threads fuzz interruptions coverage \
         clean FORCE
 .SECONDARY:
 
@@ -58,6 +58,7 @@ help:
 	@echo 'make sanitize         the tests under the address and undefined-behaviour sanitizers'
 	@echo 'make sanitize-threads  the same under the thread sanitizer'
 	@echo 'make fuzz             read mutated input files, FUZZ="count=N seed=S"'
+	@echo 'make interruptions    stop programs at random moments; 100 signals, or COUNT=n'
 	@echo 'make coverage         lines and functions of src that the tests reach (gcov)'
 	@echo 'make clean            remove $(BUILD) and $(RESULTS)'
 	@echo
@@ -167,6 +168,9 @@ test: $(BUILD)/tests $(BUILD)/simulate $(BUILD)/pack $(BUILD)/verify $(BUILD)/lo
 FUZZ = count=100000 seed=1
 fuzz: $(BUILD)/fuzz_input
 	@$(BUILD)/fuzz_input $(FUZZ)
+
+interruptions: $(addprefix $(BUILD)/,simulate couette_run fig6_injection fig4_taylor_green)
+	@tests/interruptions.sh $(or $(COUNT),100) $(BUILD)
 
 sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \

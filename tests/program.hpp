@@ -123,8 +123,9 @@ class Workspace {
   }
 
   // The same, but after so many seconds the program gets a signal (KILL, TERM, INT).
+  // In the foreground `timeout` outlives a KILL, and so waits for the program.
   ProgramRun run_until(double seconds, const std::string& signal, const std::vector<std::string>& arguments) const {
-    return run_by(concat("timeout --preserve-status -s ", signal, " ", seconds, " "), arguments);
+    return run_by(concat("timeout --foreground --preserve-status -s ", signal, " ", seconds, " "), arguments);
   }
 
   Results results(const std::filesystem::path& output = "out") const {

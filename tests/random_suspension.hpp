@@ -1,4 +1,5 @@
-// Suspensions for several tests.
+// Suspensions for several tests. Draws are in braces or in statements of their own: in parentheses compilers differ in their
+// order.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +33,7 @@ inline Suspension random_drop(std::mt19937_64& generator, int count, double side
   Suspension bodies;
   while (static_cast<int>(bodies.size()) < count) {
     const double a = 0.35 + 0.25 * uniform(generator), b = a * (0.45 + 0.55 * uniform(generator));
-    const Complex centre(side * uniform(generator), side * uniform(generator));
+    const Complex centre{side * uniform(generator), side * uniform(generator)};
     const Body next{{a, b}, {centre, 2.0 * pi * uniform(generator)}, {}, {}};
     const bool apart = std::all_of(bodies.begin(), bodies.end(),
                                    [&](const Body& other) { return gap(next, other).value >= least; });

@@ -389,7 +389,7 @@ TEST_CASE("rounding does not make a balanced suspension unbalanced") {
     std::string text = "a,b,x,y,theta,force_x,force_y\n";
     Complex net = 0.0;
     for (int i = 0; i < 300; ++i) {
-      const Complex force(uniform(random), uniform(random));
+      const Complex force{uniform(random), uniform(random)};
       net += force;
       text += concat("1,1,", 3 * i, ",0,0,", force.real(), ",", force.imag(), "\n");
     }

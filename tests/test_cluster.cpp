@@ -19,9 +19,10 @@ using Pairs = std::vector<std::pair<int, int>>;
 
 std::vector<Wrench> random_wrenches(std::mt19937_64& generator, int bodies) {
   std::vector<Wrench> wrenches(bodies);
-  for (Wrench& wrench : wrenches)
-    wrench = {std::exp(6.0 * uniform(generator)) * std::polar(1.0, 2.0 * pi * uniform(generator)),
-              uniform(generator) - 0.5};
+  for (Wrench& wrench : wrenches) {
+    const double size = std::exp(6.0 * uniform(generator)), direction = 2.0 * pi * uniform(generator);
+    wrench = {std::polar(size, direction), uniform(generator) - 0.5};
+  }
   return wrenches;
 }
 

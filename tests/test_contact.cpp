@@ -70,8 +70,9 @@ void add(std::vector<Wrench>& wrenches, const ActiveContact& contact) {
 Suspension random_ellipses(std::mt19937_64& generator, int count, double side, double least) {
   Suspension bodies;
   while (static_cast<int>(bodies.size()) < count) {
-    const Body next = body(0.3 + 0.5 * uniform(generator), 0.2 + 0.3 * uniform(generator),
-                           {side * uniform(generator), side * uniform(generator)}, 7.0 * uniform(generator));
+    const double a = 0.3 + 0.5 * uniform(generator), b = 0.2 + 0.3 * uniform(generator);
+    const Complex centre{side * uniform(generator), side * uniform(generator)};
+    const Body next = body(a, b, centre, 7.0 * uniform(generator));
     if (std::all_of(bodies.begin(), bodies.end(), [&](const Body& b) { return gap(b, next).value >= least; }))
       bodies.push_back(next);
   }
@@ -124,8 +125,8 @@ TEST_CASE("a constraint's gradient is that of its value") {
   std::mt19937_64 generator(3);
   int passed = 0, overlapping = 0;
   for (int trial_number = 0; trial_number < 200; ++trial_number) {
-    const Suspension start = {body(0.8, 0.3, 0.0, 6.0 * uniform(generator)),
-                              body(0.6, 0.5, {-1.6, 0.4 * uniform(generator)}, 6.0 * uniform(generator))};
+    const double angle = 6.0 * uniform(generator), y = 0.4 * uniform(generator);
+    const Suspension start = {body(0.8, 0.3, 0.0, angle), body(0.6, 0.5, {-1.6, y}, 6.0 * uniform(generator))};
     const GapCollector collector(start, 0.05);
     std::vector<Pose> end = poses_of(start);
     end[0].angle += 0.3 * uniform(generator);
@@ -168,7 +169,7 @@ TEST_CASE("a contact's force is that of the gap at the start: opposite, on one l
   for (int trial_number = 0; trial_number < 100; ++trial_number) {
     const Suspension start = random_ellipses(generator, 2, 3.0, 0.01);
     std::vector<Pose> end = poses_of(start);
-    for (Pose& pose : end) pose.centre += Complex(uniform(generator), uniform(generator)), pose.angle += 0.5;
+    for (Pose& pose : end) pose.centre += Complex{uniform(generator), uniform(generator)}, pose.angle += 0.5;
     const ContactConstraint c = GapCollector(start, 0.1).collect(end, {{0, 1}}).at(0);
     const GapGradient& f = c.force;
     CHECK(f.centre_a == -f.centre_b);

@@ -145,8 +145,8 @@ TEST_CASE("the gradient of the gap to a container is that of finite differences"
     // Wide enough for one point of contact.
     const double longer = shape.circumradius(), flattest = longer * longer / shape.inradius();
     const Container container{{1.0, 2.0}, flattest * random.between(1.5, 5.0)};
-    const Pose pose{container.centre + (container.radius - longer * random.between(0.0, 1.2)) * random.direction(),
-                    random.between(0.0, 7.0)};
+    const double distance = container.radius - longer * random.between(0.0, 1.2);
+    const Pose pose{container.centre + distance * random.direction(), random.between(0.0, 7.0)};
     const GapGradient g = gradient(gap(shape, pose, container), pose);
     const double step = 1e-6 * longer;
     const auto difference = [&](Complex move, double turn) {

@@ -309,7 +309,10 @@ TEST_CASE("near and far rules join at distance h, and far targets have the upsam
 TEST_CASE("a far row is the trapezoid rule on the upsampled curve and density, Nyquist mode included") {
   std::mt19937_64 generator(8);
   ComplexVector eta(16);
-  for (Complex& value : eta) value = std::polar(uniform(generator), 2.0 * pi * uniform(generator));
+  for (Complex& value : eta) {
+    const double size = uniform(generator);
+    value = std::polar(size, 2.0 * pi * uniform(generator));
+  }
   const Curve curve = Shape{1.0, 0.5}.curve(16), fine = Shape{1.0, 0.5}.curve(64);
   const std::vector<Complex> z{{1.5, 0.0}, {0.3, -1.1}, {-4.0, 3.0}};
   for (Side side : {Side::exterior, Side::interior}) {

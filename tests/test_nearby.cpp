@@ -122,8 +122,8 @@ Suspension crowd_at_wall(double separation) {
   const Container wall = *between_cylinders({}).container;
   std::mt19937_64 generator(3);
   while (bodies.size() < 50) {
-    const Complex centre = std::polar(5.5 + 4.0 * uniform(generator), 0.8 * uniform(generator) - 0.4);
-    const Body next = body_at({0.375, 0.125}, centre, 2.0 * pi * uniform(generator));
+    const double angle = 0.8 * uniform(generator) - 0.4, radius = 5.5 + 4.0 * uniform(generator);
+    const Body next = body_at({0.375, 0.125}, std::polar(radius, angle), 2.0 * pi * uniform(generator));
     if (gap(next, wall).value >= separation &&
         std::all_of(bodies.begin(), bodies.end(), [&](const Body& other) { return gap(next, other).value >= separation; }))
       bodies.push_back(next);

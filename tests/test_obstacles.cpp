@@ -96,9 +96,9 @@ Suspension random_drop(std::mt19937_64& generator, double separation) {
   Suspension bodies = {fixed(1.0, 1.0, 0.0), fixed(0.6, 0.2, {0.0, 2.2}, 0.5)};
   bodies.container = Container{0.0, 4.0};
   while (bodies.size() < 14) {
-    const Body next = mobile(0.3 + 0.3 * uniform(generator), 0.2 + 0.2 * uniform(generator),
-                             {8.0 * uniform(generator) - 4.0, 8.0 * uniform(generator) - 4.0},
-                             7.0 * uniform(generator));
+    const double a = 0.3 + 0.3 * uniform(generator), b = 0.2 + 0.2 * uniform(generator);
+    const Complex centre{8.0 * uniform(generator) - 4.0, 8.0 * uniform(generator) - 4.0};
+    const Body next = mobile(a, b, centre, 7.0 * uniform(generator));
     bool apart = gap(next, *bodies.container).value > separation;
     for (const Body& other : bodies) apart = apart && gap(other, next).value > separation;
     if (apart) bodies.push_back(next);
@@ -136,7 +136,8 @@ TEST_CASE("obstacles: a constraint of the container has the exact gradient and a
     const double a = between(0.3, 0.6), b = between(0.2, 0.6);
     const Container container{{1.0, 2.0}, 4.0};
     const auto somewhere = [&] {
-      return Pose{container.centre + std::polar(between(3.0, 4.2), between(0.0, 7.0)), between(0.0, 7.0)};
+      const double distance = between(3.0, 4.2);
+      return Pose{container.centre + std::polar(distance, between(0.0, 7.0)), between(0.0, 7.0)};
     };
     const Suspension start = in_container({mobile(a, b, somewhere().centre, 1.0)}, container);
     // Half of the steps stay nearby, the others cross the container.

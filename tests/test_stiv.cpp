@@ -113,6 +113,10 @@ struct Random {
   std::mt19937_64 engine;
   double between(double low, double high) { return low + (high - low) * uniform(engine); }
   Complex direction() { return std::polar(1.0, between(0.0, 2.0 * pi)); }
+  Complex within(double low, double high) {  // at that distance from 0
+    const double distance = between(low, high);
+    return distance * direction();
+  }
   // A third of them discs, the others of aspect ratio 1 to 6.
   Shape shape() {
     const double size = between(0.5, 1.5);
@@ -124,10 +128,10 @@ struct Random {
     Body a{shape(), {{between(-1.0, 1.0), between(-1.0, 1.0)}, between(0.0, 7.0)}, {}, {}};
     Body b{shape(), {{}, between(0.0, 7.0)}, {}, {}};
     const double size = a.shape.circumradius() + b.shape.circumradius();
-    b.pose.centre = a.pose.centre + between(0.2, 1.5) * size * direction();
+    b.pose.centre = a.pose.centre + size * within(0.2, 1.5);
     const double way = between(0.0, uniform(engine) < 0.5 ? 0.5 : 3.0) * size;
-    const Complex target = a.pose.centre + between(0.0, 1.0) * size * direction(), aim = target - b.pose.centre;
-    const Complex move = way * aim / std::abs(aim), common = between(0.0, 2.0) * direction();
+    const Complex target = a.pose.centre + size * within(0.0, 1.0), aim = target - b.pose.centre;
+    const Complex move = way * aim / std::abs(aim), common = within(0.0, 2.0);
     return {{a, b},
             {{a.pose.centre + common, a.pose.angle + between(-turn, turn)},
              {b.pose.centre + move + common, b.pose.angle + between(-turn, turn)}},

@@ -17,6 +17,10 @@ struct Random {
   std::mt19937_64 engine;
   double between(double low, double high) { return low + (high - low) * uniform(engine); }
   Complex direction() { return std::polar(1.0, between(0.0, 2.0 * pi)); }
+  Complex within(double low, double high) {  // at that distance from 0
+    const double distance = between(low, high);
+    return distance * direction();
+  }
   Shape shape() {
     const double size = between(0.5, 1.0);
     return uniform(engine) < 0.3 ? Shape{size, size} : Shape{size, size / between(1.0, 6.0)};
@@ -62,7 +66,7 @@ struct Step {
 Step random_step(Random& random, double turn) {
   const Container container{{random.between(-2.0, 2.0), 0.0}, random.between(1.5, 4.0)};
   const auto somewhere = [&] {
-    return container.centre + container.radius * random.between(0.0, 1.1) * random.direction();
+    return container.centre + container.radius * random.within(0.0, 1.1);
   };
   Step step{{random.shape(), {somewhere(), random.between(0.0, 7.0)}}, {}, container, random.between(0.0, 0.3)};
   step.trial = {somewhere(), step.body.pose.angle + random.between(-turn, turn)};
