@@ -10,12 +10,18 @@ using namespace stokes;
 
 // table.csv: for each suspension and quantity (0: order parameter, 1: effective viscosity) the mean over the second
 // revolution by forward Euler and by both step lengths. Also the largest difference of the two second-order curves, and of
-// Euler's curve and the finer one, up to a quarter and up to one revolution.
+// Euler's curve and the finer one, up to a quarter and up to one revolution. One file for each suspension, for `verify`, has
+// the means of the finer run.
 void collect(const Results& results) {
   const Results runs = couette_results(results);
   std::vector<std::vector<double>> rows;
   for (const CouetteSuspension& s : couette_suspensions) {
     const std::string euler = CouetteCase{s}.name(), coarse = euler + "_ab2_250", fine = euler + "_ab2_500";
+    if (runs.has(fine)) {
+      Quantities means = {{"effective_viscosity", runs.quantity(fine, "effective_viscosity")}};
+      if (s.lambda > 1) means.push_back({"order_parameter", runs.quantity(fine, "order_parameter")});
+      results.write(s.name(), means);
+    }
     if (!runs.has(euler) || !runs.has(coarse) || !runs.has(fine)) continue;
     for (const int viscosity : {0, 1}) {
       const std::string quantity = viscosity ? "effective_viscosity" : "order_parameter";

@@ -22,7 +22,7 @@ do for [panel = 0:1] {
   if (panel == 1) { set format y ""; unset ylabel }
   set xlabel "Stokes problems solved"
   set title (panel == 0 ? "without contact" : "with contact, δ = 3h") offset 0,-0.8
-  if (panel == 0) { unset key } else { set key at screen 0.99,0.15 top right samplen 1 width -7 Left reverse maxrows 2 font ",6" }
+  if (panel == 0) { unset key } else { set key at screen 0.98,0.15 top right samplen 1 width -1 Left reverse maxrows 2 font ",6" }
   plot for [s = 1:5] table using (chosen(s == 5 ? 2 : s - 1, separation, s == 5) && !(separation == 0 && s == 4) ? \
                                   column("solves") : NaN):(column("off_limit")) \
          with linespoints linewidth 1.3 pointtype marker[s] pointsize 0.5 linecolor rgb colour[s] title label[s]
