@@ -26,6 +26,7 @@ EXPERIMENTS := $(call names,experiments/*.cpp)
 TEXT        := bodies case case_keys case_limits checkpoint csv output_folder progress recorder run scales start_from text vtk
 LIBRARY     := $(filter-out $(PROGRAMS) $(TEXT),$(call names,src/*.cpp)) $(TEXT)
 TESTS       := $(filter-out fuzz_input,$(call names,tests/*.cpp))
+FUZZER      := fuzz_input input_fuzzer
 BINARIES    := $(addprefix $(BUILD)/,$(PROGRAMS) $(EXPERIMENTS))
 OBJECTS     := $(patsubst %,$(BUILD)/%.o,$(LIBRARY) $(PROGRAMS) $(EXPERIMENTS) $(TESTS) fuzz_input)
 
@@ -67,7 +68,7 @@ help:
 	@echo 'MISSING=allow  figures and report of incomplete results'
 	@echo '-j2          independent work side by side'
 
-all: $(BINARIES)
+all: $(BINARIES) $(BUILD)/fuzz_input
 objects: $(OBJECTS)
 
 # --- dependencies ---------------------------------------------------------------------------------------
@@ -118,8 +119,8 @@ ifeq ($(findstring ccache,$(CXX)),)
 ahead    = -include $(BUILD)/ahead/$(1).hpp
 objects_with = $(patsubst %,$(BUILD)/%.o,$(2)): $(BUILD)/ahead/$(1).hpp.gch
 $(eval $(call objects_with,full,$(filter-out packing $(TEXT),$(LIBRARY)) $(PROGRAMS)))
-$(eval $(call objects_with,light,$(TEXT) $(EXPERIMENTS)))
-$(eval $(call objects_with,tests,$(filter-out main test_gap,$(TESTS)) fuzz_input))
+$(eval $(call objects_with,light,$(TEXT) $(EXPERIMENTS) $(FUZZER)))
+$(eval $(call objects_with,tests,$(filter-out main test_gap $(FUZZER),$(TESTS))))
 endif
 $(BUILD)/ahead/%.hpp: $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -143,6 +144,9 @@ $(BUILD)/%.o: experiments/%.cpp
 	$(CXX) $(LIGHT) $(call ahead,light) $(OBJECT)
 $(BUILD)/%.o: tests/%.cpp
 	$(CXX) $(LIGHT) $(DOCTEST) $(call ahead,tests) $(OBJECT)
+# They are linked without doctest, too.
+$(FUZZER:%=$(BUILD)/%.o): $(BUILD)/%.o: tests/%.cpp
+	$(CXX) $(LIGHT) $(call ahead,light) $(OBJECT)
 $(BUILD)/main.o: tests/main.cpp
 	$(CXX) $(LIGHT) $(DOCTEST) $(OBJECT)
 # It compares bits with what inline functions give in src.
