@@ -174,7 +174,7 @@ fuzz: $(BUILD)/fuzz_input
 	@$(BUILD)/fuzz_input $(FUZZ)
 
 interruptions: $(addprefix $(BUILD)/,simulate couette_run fig6_injection fig4_taylor_green)
-	@tests/interruptions.sh $(or $(COUNT),100) $(BUILD)
+	@tests/interruptions.sh "$(COUNT)" $(BUILD)
 
 sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CXXFLAGS='-O1 -g' PORTABLE=1 \

@@ -17,12 +17,11 @@ void collect(const Results& results) {
   std::vector<std::vector<double>> rows;
   for (const CouetteSuspension& s : couette_suspensions) {
     const std::string euler = CouetteCase{s}.name(), coarse = euler + "_ab2_250", fine = euler + "_ab2_500";
-    if (runs.has(fine)) {
-      Quantities means = {{"effective_viscosity", runs.quantity(fine, "effective_viscosity")}};
-      if (s.lambda > 1) means.push_back({"order_parameter", runs.quantity(fine, "order_parameter")});
-      results.write(s.name(), means);
-    }
-    if (!runs.has(euler) || !runs.has(coarse) || !runs.has(fine)) continue;
+    if (!runs.has(fine)) continue;
+    Quantities means = {{"effective_viscosity", runs.quantity(fine, "effective_viscosity")}};
+    if (s.lambda > 1) means.push_back({"order_parameter", runs.quantity(fine, "order_parameter")});
+    results.write(s.name(), means);
+    if (!runs.has(euler) || !runs.has(coarse)) continue;
     for (const int viscosity : {0, 1}) {
       const std::string quantity = viscosity ? "effective_viscosity" : "order_parameter";
       const auto mean = [&](const std::string& run) { return runs.quantity(run, quantity); };

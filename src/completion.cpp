@@ -19,7 +19,7 @@ struct EllipsePoint {
 
 // The same s, from its square p. Without the care of std::sqrt for numbers near the ends of the range.
 ComplexPack outer_root(ComplexPack p, ComplexPack z) {
-  const Pack modulus = sqrt(p.re * p.re + p.im * p.im), larger = sqrt(0.5 * (modulus + absolute(p.re)));
+  const Pack modulus = sqrt(squared(p)), larger = sqrt(0.5 * (modulus + absolute(p.re)));
   const Pack smaller = 0.5 * absolute(p.im) / larger;
   const auto right = p.re >= 0.0;
   const Pack re = right ? larger : smaller, im = flip_sign(right ? smaller : larger, sign_bits(p.im));
@@ -45,9 +45,8 @@ ComplexPack CompletionFlow::velocity(ComplexPack x) const {
   const ComplexPack z = conj(axis) * (x - broadcast(centre_)), focus = broadcast(focus_);
   const ComplexPack s = outer_root((z - focus) * (z + focus), z), w = 0.5 / A_ * (z + s);
   const ComplexPack by_w = inverse(w), by_s = inverse(s), both = by_w * by_s;
-  const Pack logarithm = 0.5 * log(A_ * A_ * (w.re * w.re + w.im * w.im)) - log_unit_;
-  const ComplexPack far{force.re * (0.5 - logarithm), force.im * (0.5 - logarithm)};
-  ComplexPack u = far + 0.5 * conj(force) * (z * conj(by_s) - (A_ * A_ + B_ * B_) / A_ * conj(both));
+  const Pack logarithm = 0.5 * log(A_ * A_ * squared(w)) - log_unit_;
+  ComplexPack u = (0.5 - logarithm) * force + 0.5 * conj(force) * (z * conj(by_s) - (A_ * A_ + B_ * B_) / A_ * conj(both));
   if (torque_ != 0.0) {
     const ComplexPack decay = B_ * both;
     u = u + torque * (B_ * by_w) + z * conj(torque * decay) - conj(torque * (A_ * by_w + decay * (A_ * by_w + B_ * w)));

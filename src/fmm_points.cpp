@@ -70,11 +70,6 @@ struct ForceTerms {
         torque(load_or_zero(s.torque, j, end) * (1.0 / frame.size)) {}
 };
 
-ComplexPack scaled(ComplexPack a, Pack factor) { return {a.re * factor, a.im * factor}; }
-ComplexPack sum(ComplexPack a, ComplexPack b) { return {a.re + b.re, a.im + b.im}; }
-ComplexPack difference(ComplexPack a, ComplexPack b) { return {a.re - b.re, a.im - b.im}; }
-Pack squared(ComplexPack a) { return a.re * a.re + a.im * a.im; }
-
 // Values at Z of phi, its derivatives with respect to Z, psi and its derivative; and the flow of these.
 struct Goursat {
   ComplexPack phi, phi1, psi, phi2{}, psi1{};
@@ -105,15 +100,15 @@ Goursat horner(const ExpansionFrame& frame, const double* from, ComplexPack z) {
   Goursat f{};
   for (int l = frame.order; l >= 0; --l) {
     if constexpr (derivatives) {
-      f.phi2 = sum(f.phi2 * z, f.phi1);
-      f.psi1 = sum(f.psi1 * z, f.psi);
+      f.phi2 = f.phi2 * z + f.phi1;
+      f.psi1 = f.psi1 * z + f.psi;
     }
-    f.phi1 = sum(f.phi1 * z, f.phi);
+    f.phi1 = f.phi1 * z + f.phi;
     const ComplexPack phi = f.phi * z, psi = f.psi * z;
     f.phi = {phi.re + a_re[l], phi.im + a_im[l]};
     f.psi = {psi.re + b_re[l], psi.im + b_im[l]};
   }
-  f.phi2 = scaled(f.phi2, broadcast(2.0));
+  f.phi2 = 2.0 * f.phi2;
   return f;
 }
 
@@ -133,19 +128,19 @@ void multipole_flow(const ExpansionFrame& frame, const double* from, bool with_l
   // As functions of v = 1/Z: d/dZ = -v^2 d/dv, d2/dZ2 = v^4 d2/dv2 + 2 v^3 d/dv.
   Goursat f = horner<derivatives>(frame, from, v);
   if constexpr (derivatives) {
-    f.phi2 = sum(vv * vv * f.phi2, scaled(vv * v * f.phi1, broadcast(2.0)));
-    f.psi1 = scaled(vv * f.psi1, broadcast(-1.0));
+    f.phi2 = vv * vv * f.phi2 + 2.0 * (vv * v * f.phi1);
+    f.psi1 = -1.0 * (vv * f.psi1);
   }
-  f.phi1 = scaled(vv * f.phi1, broadcast(-1.0));
+  f.phi1 = -1.0 * (vv * f.phi1);
   // The series above took a_0 and b_0 for constant terms.
-  f.phi = difference(f.phi, a0), f.psi = difference(f.psi, b0);
+  f.phi = f.phi - a0, f.psi = f.psi - b0;
   if (with_logarithm) {
     const Pack rx = x - frame.x, ry = y - frame.y;
-    f.phi = sum(f.phi, scaled(a0, log(rx * rx + ry * ry) - 1.0));
-    f.phi1 = sum(f.phi1, a0 * v);
+    f.phi = f.phi + (log(rx * rx + ry * ry) - 1.0) * a0;
+    f.phi1 = f.phi1 + a0 * v;
     if constexpr (derivatives) {
-      f.phi2 = difference(f.phi2, a0 * vv);
-      f.psi1 = sum(f.psi1, b0 * v);
+      f.phi2 = f.phi2 - a0 * vv;
+      f.psi1 = f.psi1 + b0 * v;
     }
   }
   f.add_to(z, frame.size, total);
@@ -162,7 +157,7 @@ void add_to_multipole(const ExpansionFrame& frame, const StressletArrays& s, Poi
     ComplexPack q{};                              // conj(d) g d^{k-2}
     for (int k = 1; k <= frame.order; ++k) {
       sums.add(0, k, g);
-      sums.add(1, k, difference(scaled(q, broadcast(k - 1.0)), h));
+      sums.add(1, k, (k - 1.0) * q - h);
       q = k == 1 ? conj(d) * g : q * d;
       g = g * d, h = h * d;
     }
@@ -175,16 +170,16 @@ void add_to_multipole(const ExpansionFrame& frame, const PointForceArrays& s, Po
   for (int j = range.begin; j < range.end; j += lanes) {
     const ComplexPack d = relative(frame, load_up_to(s.x, j, range.end), load_up_to(s.y, j, range.end));
     const ForceTerms terms(frame, s, j, range.end);
-    const ComplexPack f = terms.f, e = sum(conj(d) * f, {Pack{}, terms.torque});
-    sums.add(0, 0, scaled(f, broadcast(-1.0)));
+    const ComplexPack f = terms.f, e = conj(d) * f + ComplexPack{Pack{}, terms.torque};
+    sums.add(0, 0, -1.0 * f);
     sums.add(1, 0, conj(f));
     ComplexPack power{broadcast(1.0), Pack{}};  // d^{k-1}
     for (int k = 1; k <= frame.order; ++k) {
       const ComplexPack lower = power;
       power = power * d;
-      const ComplexPack part = scaled(power, broadcast(1.0 / k));
+      const ComplexPack part = 1.0 / k * power;
       sums.add(0, k, f * part);
-      sums.add(1, k, difference(e * lower, conj(f) * part));
+      sums.add(1, k, e * lower - conj(f) * part);
     }
   }
   sums.add_to(to);
@@ -196,11 +191,11 @@ void add_to_local(const ExpansionFrame& frame, const StressletArrays& s, PointRa
     const ComplexPack d = relative(frame, load_up_to(s.x, j, range.end), load_up_to(s.y, j, range.end));
     const ComplexPack v = inverse(d);
     const StressletTerms terms(frame, s, j, range.end);
-    ComplexPack g = terms.g * v, h = scaled(v, terms.h);  // g v^{l+1}, h v^{l+1}
-    ComplexPack q = conj(d) * g * v;                      // conj(d) g v^{l+2}
+    ComplexPack g = terms.g * v, h = terms.h * v;  // g v^{l+1}, h v^{l+1}
+    ComplexPack q = conj(d) * g * v;               // conj(d) g v^{l+2}
     for (int l = 0; l <= frame.order; ++l) {
-      sums.add(0, l, scaled(g, broadcast(-1.0)));
-      sums.add(1, l, sum(h, scaled(q, broadcast(l + 1.0))));
+      sums.add(0, l, -1.0 * g);
+      sums.add(1, l, h + (l + 1.0) * q);
       g = g * v, h = h * v, q = q * v;
     }
   }
@@ -213,15 +208,15 @@ void add_to_local(const ExpansionFrame& frame, const PointForceArrays& s, PointR
     const ComplexPack d = relative(frame, load_up_to(s.x, j, range.end), load_up_to(s.y, j, range.end));
     const ComplexPack v = inverse(d);
     const ForceTerms terms(frame, s, j, range.end);
-    const ComplexPack f = terms.f, e = sum(conj(d) * f, {Pack{}, terms.torque});
+    const ComplexPack f = terms.f, e = conj(d) * f + ComplexPack{Pack{}, terms.torque};
     const Pack logarithm = log(squared(d) * (frame.size * frame.size));
-    sums.add(0, 0, scaled(f, 1.0 - logarithm));
+    sums.add(0, 0, (1.0 - logarithm) * f);
     ComplexPack power{broadcast(1.0), Pack{}};  // v^l
     for (int l = 0; l <= frame.order; ++l) {
       const ComplexPack higher = power * v;
-      const ComplexPack part = scaled(power, broadcast(l == 0 ? 0.0 : 1.0 / l));
+      const ComplexPack part = (l == 0 ? 0.0 : 1.0 / l) * power;
       sums.add(0, l, f * part);
-      sums.add(1, l, scaled(sum(e * higher, conj(f) * part), broadcast(-1.0)));
+      sums.add(1, l, -1.0 * (e * higher + conj(f) * part));
       power = higher;
     }
   }

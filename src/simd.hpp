@@ -134,13 +134,15 @@ inline ComplexPack operator*(ComplexPack a, ComplexPack b) {
 }
 
 inline ComplexPack operator*(double a, ComplexPack b) { return {a * b.re, a * b.im}; }
+inline ComplexPack operator*(Pack a, ComplexPack b) { return {a * b.re, a * b.im}; }
 inline ComplexPack operator+(ComplexPack a, ComplexPack b) { return {a.re + b.re, a.im + b.im}; }
 inline ComplexPack operator-(ComplexPack a, ComplexPack b) { return {a.re - b.re, a.im - b.im}; }
 
 inline ComplexPack conj(ComplexPack a) { return {a.re, -a.im}; }
+inline Pack squared(ComplexPack a) { return a.re * a.re + a.im * a.im; }  // modulus
 
 inline ComplexPack inverse(ComplexPack a) {
-  const Pack factor = 1.0 / (a.re * a.re + a.im * a.im);
+  const Pack factor = 1.0 / squared(a);
   return {a.re * factor, -a.im * factor};
 }
 

@@ -13,6 +13,16 @@ namespace stokes {
 // Uniform in [0, 1), the same on every machine.
 inline double uniform(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1p-53; }
 
+struct RandomNumbers {
+  std::mt19937_64 engine;
+  double between(double low, double high) { return low + (high - low) * uniform(engine); }
+  Complex direction() { return std::polar(1.0, between(0.0, 2.0 * pi)); }
+  Complex within(double low, double high) {  // at that distance from 0
+    const double distance = between(low, high);
+    return distance * direction();
+  }
+};
+
 // Six ellipses of three shapes with gaps of at least 0.2.
 inline Suspension six_ellipses() {
   std::mt19937_64 generator(7);

@@ -73,7 +73,7 @@ Suspension random_ellipses(std::mt19937_64& generator, int count, double side, d
     const double a = 0.3 + 0.5 * uniform(generator), b = 0.2 + 0.3 * uniform(generator);
     const Complex centre{side * uniform(generator), side * uniform(generator)};
     const Body next = body(a, b, centre, 7.0 * uniform(generator));
-    if (std::all_of(bodies.begin(), bodies.end(), [&](const Body& b) { return gap(b, next).value >= least; }))
+    if (std::all_of(bodies.begin(), bodies.end(), [&](const Body& other) { return gap(other, next).value >= least; }))
       bodies.push_back(next);
   }
   return bodies;

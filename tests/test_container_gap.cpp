@@ -12,10 +12,7 @@ using namespace stokes;
 
 namespace {
 
-struct Random {
-  std::mt19937_64 engine;
-  double between(double low, double high) { return low + (high - low) * uniform(engine); }
-  Complex direction() { return std::polar(1.0, between(0.0, 2.0 * pi)); }
+struct Random : RandomNumbers {
   // Aspect ratio 1 to 8, either semi-axis the longer one.
   Shape shape() {
     const double size = between(0.2, 1.0), ratio = between(1.0, 8.0);

@@ -109,14 +109,7 @@ struct Tally {
   }
 };
 
-struct Random {
-  std::mt19937_64 engine;
-  double between(double low, double high) { return low + (high - low) * uniform(engine); }
-  Complex direction() { return std::polar(1.0, between(0.0, 2.0 * pi)); }
-  Complex within(double low, double high) {  // at that distance from 0
-    const double distance = between(low, high);
-    return distance * direction();
-  }
+struct Random : RandomNumbers {
   // A third of them discs, the others of aspect ratio 1 to 6.
   Shape shape() {
     const double size = between(0.5, 1.5);

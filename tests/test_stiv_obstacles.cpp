@@ -13,14 +13,7 @@ using namespace stokes;
 
 namespace {
 
-struct Random {
-  std::mt19937_64 engine;
-  double between(double low, double high) { return low + (high - low) * uniform(engine); }
-  Complex direction() { return std::polar(1.0, between(0.0, 2.0 * pi)); }
-  Complex within(double low, double high) {  // at that distance from 0
-    const double distance = between(low, high);
-    return distance * direction();
-  }
+struct Random : RandomNumbers {
   Shape shape() {
     const double size = between(0.5, 1.0);
     return uniform(engine) < 0.3 ? Shape{size, size} : Shape{size, size / between(1.0, 6.0)};
